@@ -1,0 +1,1 @@
+//! The harness: scenes, ray sets, structures, checks, measurements, reports.

@@ -1,0 +1,1 @@
+//! Stands behind `accel::Accel`.

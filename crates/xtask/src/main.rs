@@ -1,0 +1,3 @@
+//! `cargo xtask compare | test | setup`.
+
+fn main() {}
