@@ -1,0 +1,156 @@
+//! Ray-triangle tests as type parameters.
+//!
+//! A kernel is written once, over the lanes of [`Simd`], and used in two ways: one ray
+//! against several triangles (lists of rays) and several rays against one triangle
+//! (rasters). Both, and the scalar form, give the same bits.
+
+mod moller_trumbore;
+mod watertight;
+
+pub use moller_trumbore::MollerTrumbore;
+pub use watertight::Watertight;
+
+use crate::packet::{Lanes, Packet, Vec3Lanes};
+use crate::simd::{ROW, Row, Scalar, Simd};
+use crate::{Ray, Surface, Vec3};
+
+/// The three corners of a triangle.
+pub type Corners = [Vec3; 3];
+
+/// A ray-triangle test.
+pub trait Kernel: Copy + Default + Send + Sync + 'static {
+    /// The kernel's name.
+    const ID: KernelId;
+    /// Rows of packed geometry for each group of [`ROW`] triangles.
+    const ROWS: usize = 9;
+    /// What is computed once for a ray.
+    type One: Copy + Send + Sync;
+    /// What is computed once for `LANES` rays.
+    type Many<S: Simd>: Copy;
+
+    /// Writes a triangle to lane `lane` of a group of [`Kernel::ROWS`] rows.
+    #[inline(always)]
+    fn pack(corners: &Corners, group: &mut [Row], lane: usize) {
+        for (corner, rows) in corners.iter().zip(group.chunks_exact_mut(3)) {
+            for (axis, row) in rows.iter_mut().enumerate() {
+                row.0[lane] = corner[axis];
+            }
+        }
+    }
+
+    /// The corners packed in lane `lane`, or `None` where the rows don't hold them.
+    #[inline(always)]
+    fn corners(group: &[Row], lane: usize) -> Option<Corners> {
+        let at = |row: usize| group[row].0[lane];
+        Some([0, 3, 6].map(|row| Vec3::new(at(row), at(row + 1), at(row + 2))))
+    }
+
+    /// Prepares one ray.
+    fn one(ray: &Ray) -> Self::One;
+
+    /// Prepares `LANES` rays.
+    fn many<S: Simd>(s: S, rays: &Packet<S>) -> Self::Many<S>;
+
+    /// One ray against the triangles in lanes `at .. at + LANES` of a group, with t up to `t_max`.
+    fn triangles<S: Simd>(s: S, ray: &Self::One, group: &[Row], at: usize, t_max: f32) -> Lanes<S>;
+
+    /// `LANES` rays against the triangle in lane `lane` of a group, with t up to `t_max`.
+    fn rays<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S>;
+
+    /// One ray against one triangle.
+    #[inline]
+    fn test(ray: &Self::One, corners: &Corners, t_max: f32) -> Option<Surface> {
+        const MOST_ROWS: usize = 16;
+        const { assert!(Self::ROWS <= MOST_ROWS) };
+        let mut group = [Row([0.0; ROW]); MOST_ROWS];
+        Self::pack(corners, &mut group[..Self::ROWS], 0);
+        let Lanes { hit, t, u, v } = Self::triangles(Scalar, ray, &group[..Self::ROWS], 0, t_max);
+        hit.then_some(Surface { t, u, v })
+    }
+}
+
+/// Names a kernel in settings and records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum KernelId {
+    /// [`MollerTrumbore`]
+    MollerTrumbore,
+    /// [`Watertight`]
+    Watertight,
+}
+
+impl KernelId {
+    /// All kernels there are.
+    pub const ALL: [Self; 2] = [Self::MollerTrumbore, Self::Watertight];
+
+    /// Name as used in settings and records.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::MollerTrumbore => "moller-trumbore",
+            Self::Watertight => "watertight",
+        }
+    }
+
+    /// The kernel of that name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kernel| kernel.id() == id)
+    }
+
+    /// Calls `with` with the kernel as a type.
+    #[inline]
+    pub fn with<W: WithKernel>(self, with: W) -> W::Out {
+        match self {
+            Self::MollerTrumbore => with.kernel::<MollerTrumbore>(),
+            Self::Watertight => with.kernel::<Watertight>(),
+        }
+    }
+}
+
+impl std::fmt::Display for KernelId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.id())
+    }
+}
+
+/// Code that is generic over the kernel.
+pub trait WithKernel {
+    /// What it computes.
+    type Out;
+    /// Does it with kernel `K`.
+    fn kernel<K: Kernel>(self) -> Self::Out;
+}
+
+/// The corners of `LANES` packed triangles from lane `at` on.
+#[inline(always)]
+pub(crate) fn load_corners<S: Simd>(s: S, group: &[Row], at: usize) -> [Vec3Lanes<S>; 3] {
+    let rows = &group[..9];
+    [0, 3, 6].map(|first| [0, 1, 2].map(|axis| s.load(&rows[first + axis].0[at..])))
+}
+
+/// The corners of one packed triangle in all lanes.
+#[inline(always)]
+pub(crate) fn splat_corners<S: Simd>(s: S, group: &[Row], lane: usize) -> [Vec3Lanes<S>; 3] {
+    let rows = &group[..9];
+    [0, 3, 6].map(|first| [0, 1, 2].map(|axis| s.splat(rows[first + axis].0[lane])))
+}
+
+/// a − b
+#[inline(always)]
+pub(crate) fn sub3<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> Vec3Lanes<S> {
+    [s.sub(a[0], b[0]), s.sub(a[1], b[1]), s.sub(a[2], b[2])]
+}
+
+/// a × b
+#[inline(always)]
+pub(crate) fn cross3<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> Vec3Lanes<S> {
+    let minor = |i: usize, j: usize| s.sub(s.mul(a[i], b[j]), s.mul(a[j], b[i]));
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// a · b, summed from x to z
+#[inline(always)]
+pub(crate) fn dot3<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> S::F {
+    s.add(s.add(s.mul(a[0], b[0]), s.mul(a[1], b[1])), s.mul(a[2], b[2]))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,273 @@
+//! Triangles as objects, with the kernel as a parameter.
+
+use super::{BLOCK, Blocks, EMPTY_SLOT, Objects, lawful, pad_of};
+use crate::kernel::{Corners, Kernel};
+use crate::packet::{NearestPacket, Packet};
+use crate::simd::{ROW, Row, Simd};
+use crate::{Aabb, Mesh, Nearest, Ray, Surface, Vec3};
+use std::marker::PhantomData;
+
+/// The triangles of a mesh, tested by kernel `K`.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangles<'s, K> {
+    mesh: &'s Mesh,
+    frame: Frame,
+    kernel: PhantomData<K>,
+}
+
+/// What the law of [`Objects`] needs to know of the whole mesh.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    pad: f32,
+    center: Vec3,
+    /// Rays whose origin is no farther than this from the centre, on each axis, have hits whose position
+    /// `f32` gives well within half the padding.
+    near: f32,
+}
+
+/// A ray prepared for triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleRay<P> {
+    prepared: P,
+    ray: Ray,
+    near: bool,
+}
+
+/// A packet of rays prepared for triangles.
+#[derive(Clone, Copy)]
+pub struct TrianglePacket<S: Simd, P> {
+    prepared: P,
+    rays: Packet<S>,
+    near: S::M,
+}
+
+impl Frame {
+    fn of(mesh: &Mesh) -> Self {
+        let bounds = mesh.bounds();
+        let pad = pad_of(&bounds);
+        if bounds.is_empty() {
+            return Self { pad, center: Vec3::ZERO, near: 0.0 };
+        }
+        Self { pad, center: bounds.center(), near: 4.0 * bounds.extent().max_element() }
+    }
+
+    fn is_near(&self, origin: Vec3) -> bool {
+        (origin - self.center).abs().max_element() <= self.near
+    }
+
+    /// Whether a hit keeps the law of [`Objects`].
+    #[inline]
+    fn lawful(&self, corners: &Corners, ray: &Ray, near: bool, t: f32) -> bool {
+        (near && self.plainly_lawful(corners, ray, t))
+            || lawful(&Aabb::of_points(*corners).padded(self.pad), ray, t)
+    }
+
+    /// A cheaper test that implies `lawful` for near rays: the hit's position relative to the first corner,
+    /// rounded, lies in the box padded by half.
+    #[inline]
+    fn plainly_lawful(&self, corners: &Corners, ray: &Ray, t: f32) -> bool {
+        let [a, b, c] = *corners;
+        let half = Vec3::splat(self.pad * 0.5);
+        let position = (ray.origin - a) + ray.direction * t;
+        let (edge1, edge2) = (b - a, c - a);
+        let low = edge1.min(edge2).min(Vec3::ZERO) - half;
+        let high = edge1.max(edge2).max(Vec3::ZERO) + half;
+        low.cmple(position).all() && position.cmple(high).all()
+    }
+}
+
+impl<'s, K: Kernel> Triangles<'s, K> {
+    /// The objects of a scene of triangles.
+    pub fn new(mesh: &'s Mesh) -> Self {
+        Self { mesh, frame: Frame::of(mesh), kernel: PhantomData }
+    }
+
+    /// The corners of a triangle.
+    #[inline]
+    fn corners(&self, id: u32) -> Corners {
+        self.mesh.corners(id as usize)
+    }
+}
+
+impl<'s, K: Kernel> Objects for Triangles<'s, K> {
+    type Blocks = TriangleBlocks<'s, K>;
+
+    fn len(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    fn bounds(&self, id: u32) -> Aabb {
+        Aabb::of_points(self.corners(id)).padded(self.frame.pad)
+    }
+
+    #[inline]
+    fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
+        let corners = self.corners(id);
+        let surface = K::test(&K::one(ray), &corners, t_max)?;
+        self.frame.lawful(&corners, ray, self.frame.is_near(ray.origin), surface.t).then_some(surface)
+    }
+
+    fn blocks(&self, order: &[u32]) -> Self::Blocks {
+        let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
+        let mut rows = vec![Row([f32::NAN; ROW]); groups * K::ROWS];
+        for (group, ids) in rows.chunks_exact_mut(K::ROWS).zip(order.chunks(ROW)) {
+            for (lane, id) in ids.iter().enumerate().filter(|(_, id)| **id != EMPTY_SLOT) {
+                K::pack(&self.corners(*id), group, lane);
+            }
+        }
+        TriangleBlocks { triangles: *self, rows, order: order.to_vec() }
+    }
+}
+
+/// Triangles packed as rows of 16: four groups to a block.
+#[derive(Clone, Debug)]
+pub struct TriangleBlocks<'s, K> {
+    triangles: Triangles<'s, K>,
+    rows: Vec<Row>,
+    order: Vec<u32>,
+}
+
+impl<K: Kernel> TriangleBlocks<'_, K> {
+    #[inline(always)]
+    fn group(&self, slot: usize) -> &[Row] {
+        let first = slot / ROW * K::ROWS;
+        &self.rows[first..first + K::ROWS]
+    }
+
+    #[inline(always)]
+    fn corners(&self, group: &[Row], slot: usize) -> Corners {
+        K::corners(group, slot % ROW).unwrap_or_else(|| self.triangles.corners(self.order[slot]))
+    }
+
+    /// Calls `found` with every lawful hit among the set bits until it says to stop.
+    #[inline(always)]
+    fn visit<S: Simd>(
+        &self,
+        s: S,
+        block: usize,
+        mut mask: u64,
+        ray: &TriangleRay<K::One>,
+        mut t_max: f32,
+        mut found: impl FnMut(u32, Surface) -> Option<f32>,
+    ) {
+        let lanes_mask = u64::MAX >> (64 - S::LANES);
+        while mask != 0 {
+            let first = mask.trailing_zeros() as usize / S::LANES * S::LANES;
+            let wanted = (mask >> first & lanes_mask) as u32;
+            mask &= !(lanes_mask << first);
+            let group = self.group(block * BLOCK + first);
+            let lanes = K::triangles(s, &ray.prepared, group, first % ROW, t_max);
+            let mut hits = s.bits(lanes.hit) & wanted;
+            if hits == 0 {
+                continue;
+            }
+            let rows = lanes.rows(s);
+            while hits != 0 {
+                let lane = hits.trailing_zeros() as usize;
+                hits &= hits - 1;
+                let slot = block * BLOCK + first + lane;
+                let surface = rows.surface(lane);
+                let corners = self.corners(group, slot);
+                if self.triangles.frame.lawful(&corners, &ray.ray, ray.near, surface.t) {
+                    match found(self.order[slot], surface) {
+                        Some(limit) => t_max = limit,
+                        None => return,
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
+    type One = TriangleRay<K::One>;
+    type Many<S: Simd> = TrianglePacket<S, K::Many<S>>;
+
+    fn bytes(&self) -> usize {
+        crate::vec_bytes(&self.rows) + crate::vec_bytes(&self.order)
+    }
+
+    #[inline]
+    fn object(&self, slot: usize) -> u32 {
+        self.order[slot]
+    }
+
+    #[inline(always)]
+    fn one(&self, ray: &Ray) -> Self::One {
+        TriangleRay { prepared: K::one(ray), ray: *ray, near: self.triangles.frame.is_near(ray.origin) }
+    }
+
+    #[inline(always)]
+    fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Self::Many<S> {
+        let frame = &self.triangles.frame;
+        let near = s.splat(frame.near);
+        let mut all = s.mask(u32::MAX);
+        for axis in 0..3 {
+            let distance = s.abs(s.sub(rays.origin[axis], s.splat(frame.center[axis])));
+            all = s.and(all, s.le(distance, near));
+        }
+        TrianglePacket { prepared: K::many(s, rays), rays: *rays, near: all }
+    }
+
+    #[inline(always)]
+    fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
+        self.visit(s, block, mask, ray, best.t, |object, surface| {
+            best.offer(object, surface);
+            Some(best.t)
+        });
+    }
+
+    #[inline(always)]
+    fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
+        let mut any = false;
+        self.visit(s, block, mask, ray, t_max, |_, _| {
+            any = true;
+            None
+        });
+        any
+    }
+
+    #[inline(always)]
+    fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+        let group = self.group(slot);
+        let mut lanes = K::rays(s, &rays.prepared, group, slot % ROW, best.t);
+        let hits = s.bits(lanes.hit);
+        if hits == 0 {
+            return;
+        }
+        let corners = self.corners(group, slot);
+        let frame = &self.triangles.frame;
+        let plain = s.bits(s.and(rays.near, plainly_lawful(s, frame, &corners, &rays.rays, lanes.t)));
+        let mut open = hits & !plain;
+        if open != 0 {
+            let mut lawful = hits & plain;
+            let rows = lanes.rows(s);
+            while open != 0 {
+                let lane = open.trailing_zeros() as usize;
+                open &= open - 1;
+                if frame.lawful(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t) {
+                    lawful |= 1 << lane;
+                }
+            }
+            lanes.hit = s.mask(lawful);
+        }
+        best.offer(s, self.order[slot], &lanes);
+    }
+}
+
+/// [`Frame::plainly_lawful`] in lanes.
+#[inline(always)]
+fn plainly_lawful<S: Simd>(s: S, frame: &Frame, corners: &Corners, rays: &Packet<S>, t: S::F) -> S::M {
+    let [a, b, c] = *corners;
+    let half = Vec3::splat(frame.pad * 0.5);
+    let (edge1, edge2) = (b - a, c - a);
+    let low = edge1.min(edge2).min(Vec3::ZERO) - half;
+    let high = edge1.max(edge2).max(Vec3::ZERO) + half;
+    let mut all = s.mask(u32::MAX);
+    for axis in 0..3 {
+        let from_a = s.sub(rays.origin[axis], s.splat(a[axis]));
+        let position = s.add(from_a, s.mul(rays.direction[axis], t));
+        all = s.and(all, s.and(s.le(s.splat(low[axis]), position), s.le(position, s.splat(high[axis]))));
+    }
+    all
+}

@@ -1,0 +1,161 @@
+//! Several rays side by side in lanes.
+
+use crate::simd::{ROW, Simd};
+use crate::{Nearest, Ray, Surface, Vec3};
+
+/// Three coordinates of `LANES` vectors.
+pub type Vec3Lanes<S> = [<S as Simd>::F; 3];
+
+/// `LANES` rays, coordinate by coordinate.
+#[derive(Clone, Copy)]
+pub struct Packet<S: Simd> {
+    /// Origins.
+    pub origin: Vec3Lanes<S>,
+    /// Directions.
+    pub direction: Vec3Lanes<S>,
+    /// Least t of each ray.
+    pub t_min: S::F,
+}
+
+impl<S: Simd> Packet<S> {
+    /// The same ray in all lanes.
+    #[inline(always)]
+    pub fn splat(s: S, ray: &Ray) -> Self {
+        Self { origin: splat3(s, ray.origin), direction: splat3(s, ray.direction), t_min: s.splat(ray.t_min) }
+    }
+
+    /// The first `LANES` of `rays`.
+    ///
+    /// # Panics
+    /// If there are fewer.
+    #[inline(always)]
+    pub fn load(s: S, rays: &[Ray]) -> Self {
+        let rays = &rays[..S::LANES];
+        let lanes = |of: &dyn Fn(&Ray) -> f32| {
+            let mut values = [0.0; ROW];
+            for (value, ray) in values.iter_mut().zip(rays) {
+                *value = of(ray);
+            }
+            s.load(&values)
+        };
+        Self {
+            origin: [0, 1, 2].map(|axis| lanes(&|ray| ray.origin[axis])),
+            direction: [0, 1, 2].map(|axis| lanes(&|ray| ray.direction[axis])),
+            t_min: lanes(&|ray| ray.t_min),
+        }
+    }
+
+    /// The ray of one lane, with an infinite `t_max`. For paths that are taken rarely.
+    #[inline(always)]
+    pub fn ray(&self, s: S, lane: usize) -> Ray {
+        let at = |v: S::F| lane_of(s, v, lane);
+        Ray {
+            origin: Vec3::from_array(self.origin.map(at)),
+            direction: Vec3::from_array(self.direction.map(at)),
+            t_min: at(self.t_min),
+            t_max: f32::INFINITY,
+        }
+    }
+}
+
+/// A vector in all lanes.
+#[inline(always)]
+pub fn splat3<S: Simd>(s: S, v: Vec3) -> Vec3Lanes<S> {
+    [s.splat(v.x), s.splat(v.y), s.splat(v.z)]
+}
+
+/// One lane's value.
+#[inline(always)]
+pub fn lane_of<S: Simd>(s: S, v: S::F, lane: usize) -> f32 {
+    let mut lanes = [0.0; ROW];
+    s.store(v, &mut lanes);
+    lanes[lane]
+}
+
+/// The outcome of `LANES` tests at once.
+#[derive(Clone, Copy)]
+pub struct Lanes<S: Simd> {
+    /// Which lanes hit within their range of t; the others hold anything.
+    pub hit: S::M,
+    /// The rays' parameters.
+    pub t: S::F,
+    /// First surface coordinates.
+    pub u: S::F,
+    /// Second surface coordinates.
+    pub v: S::F,
+}
+
+impl<S: Simd> Lanes<S> {
+    /// The lanes as rows, to be read one by one.
+    #[inline(always)]
+    pub fn rows(&self, s: S) -> LaneRows {
+        let mut rows = LaneRows { t: [0.0; ROW], u: [0.0; ROW], v: [0.0; ROW] };
+        s.store(self.t, &mut rows.t);
+        s.store(self.u, &mut rows.u);
+        s.store(self.v, &mut rows.v);
+        rows
+    }
+}
+
+/// [`Lanes`] in memory.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneRows {
+    t: [f32; ROW],
+    u: [f32; ROW],
+    v: [f32; ROW],
+}
+
+impl LaneRows {
+    /// What one lane hit.
+    #[inline(always)]
+    pub fn surface(&self, lane: usize) -> Surface {
+        Surface { t: self.t[lane], u: self.u[lane], v: self.v[lane] }
+    }
+}
+
+/// The nearest hits so far of `LANES` rays; see [`Nearest`].
+#[derive(Clone, Copy)]
+pub struct NearestPacket<S: Simd> {
+    /// Each hit's t, or the ray's `t_max` (−∞ switches a lane off).
+    pub t: S::F,
+    /// Each hit's object, or [`Nearest::NONE`].
+    pub object: S::U,
+    /// First surface coordinates.
+    pub u: S::F,
+    /// Second surface coordinates.
+    pub v: S::F,
+}
+
+impl<S: Simd> NearestPacket<S> {
+    /// No hits yet.
+    #[inline(always)]
+    pub fn new(s: S, t_max: S::F) -> Self {
+        Self { t: t_max, object: s.splat_u(Nearest::NONE), u: s.splat(0.0), v: s.splat(0.0) }
+    }
+
+    /// Takes the hits on `object` that come before what is here.
+    #[inline(always)]
+    pub fn offer(&mut self, s: S, object: u32, lanes: &Lanes<S>) {
+        let id = s.splat_u(object);
+        let tie = s.and(s.eq(lanes.t, self.t), s.lt_u(id, self.object));
+        let wins = s.and(lanes.hit, s.or(s.lt(lanes.t, self.t), tie));
+        self.t = s.select(wins, lanes.t, self.t);
+        self.u = s.select(wins, lanes.u, self.u);
+        self.v = s.select(wins, lanes.v, self.v);
+        self.object = s.select_u(wins, id, self.object);
+    }
+
+    /// Each lane's result, in the order of lanes.
+    #[inline(always)]
+    pub fn store(&self, s: S, to: &mut [Nearest]) {
+        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
+        let mut object = [0; ROW];
+        s.store(self.t, &mut t);
+        s.store(self.u, &mut u);
+        s.store(self.v, &mut v);
+        s.store_u(self.object, &mut object);
+        for (lane, nearest) in to.iter_mut().enumerate().take(S::LANES) {
+            *nearest = Nearest { t: t[lane], object: object[lane], u: u[lane], v: v[lane] };
+        }
+    }
+}

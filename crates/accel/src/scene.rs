@@ -1,0 +1,120 @@
+//! Scenes: what there is to be hit.
+
+use crate::kernel::{Corners, Kernel, KernelId, WithKernel};
+use crate::objects::{Boxes, Objects, Triangles};
+use crate::{Aabb, Vec3};
+
+/// Indexed triangles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Corner positions, finite.
+    pub positions: Vec<Vec3>,
+    /// Three indices into `positions` for each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// The corners of triangle `index`.
+    ///
+    /// # Panics
+    /// If there is no such triangle, or it names no position.
+    #[inline]
+    pub fn corners(&self, index: usize) -> Corners {
+        self.triangles[index].map(|corner| self.positions[corner as usize])
+    }
+
+    /// The box of all triangles; positions that no triangle uses don't count.
+    pub fn bounds(&self) -> Aabb {
+        let corners = self.triangles.iter().flatten();
+        Aabb::of_points(corners.map(|corner| self.positions[*corner as usize]))
+    }
+}
+
+/// The objects of a scene, all of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// Triangles.
+    Triangles(Mesh),
+    /// Axis-aligned boxes.
+    Boxes(Vec<Aabb>),
+}
+
+impl Geometry {
+    /// Number of objects.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Triangles(mesh) => mesh.triangles.len(),
+            Self::Boxes(boxes) => boxes.len(),
+        }
+    }
+
+    /// Whether there is no object.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The box of all objects.
+    pub fn bounds(&self) -> Aabb {
+        match self {
+            Self::Triangles(mesh) => mesh.bounds(),
+            Self::Boxes(boxes) => boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b)),
+        }
+    }
+
+    /// What kind of objects there are, in the plural.
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::Triangles(_) => "triangles",
+            Self::Boxes(_) => "boxes",
+        }
+    }
+}
+
+/// From where a scene is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The observer.
+    pub eye: Vec3,
+    /// A point in the middle of the image.
+    pub target: Vec3,
+    /// Which way is up.
+    pub up: Vec3,
+    /// Full vertical angle of view in degrees.
+    pub fov_y_degrees: f32,
+}
+
+/// A named scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Its name in records.
+    pub id: String,
+    /// What there is.
+    pub geometry: Geometry,
+    /// From where it is looked at.
+    pub view: View,
+}
+
+/// Code that is generic over the objects of a scene.
+pub trait WithObjects<'s> {
+    /// What it computes.
+    type Out;
+    /// Does it with these objects.
+    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out;
+}
+
+impl Scene {
+    /// Calls `with` with the scene's objects, triangles being tested by `kernel`.
+    pub fn with_objects<'s, W: WithObjects<'s>>(&'s self, kernel: KernelId, with: W) -> W::Out {
+        struct OfMesh<'s, W>(&'s Mesh, W);
+        impl<'s, W: WithObjects<'s>> WithKernel for OfMesh<'s, W> {
+            type Out = W::Out;
+            fn kernel<K: Kernel>(self) -> W::Out {
+                self.1.objects(Triangles::<K>::new(self.0))
+            }
+        }
+        match &self.geometry {
+            Geometry::Triangles(mesh) => kernel.with(OfMesh(mesh, with)),
+            Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
+        }
+    }
+}

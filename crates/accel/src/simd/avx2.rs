@@ -1,0 +1,140 @@
+//! Eight lanes of AVX2.
+
+use super::{Simd, Task};
+use std::arch::x86_64::*;
+
+/// Proof that AVX2 is present: only [`run`] makes one.
+#[derive(Clone, Copy, Debug)]
+pub struct Avx2(());
+
+/// Runs `task` with AVX2.
+///
+/// The caller has checked `Level::Avx2.available()`.
+pub(super) fn run<T: Task>(task: T) -> T::Out {
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn inner<T: Task>(task: T) -> T::Out {
+        task.run(Avx2(()))
+    }
+    // SAFETY: `Level::run` calls this only where AVX2 was detected; every processor with
+    // AVX2 has BMI, LZCNT and POPCNT.
+    unsafe { inner(task) }
+}
+
+/// Wraps intrinsics without preconditions but their instruction set.
+macro_rules! intrinsic {
+    ($e:expr) => {
+        // SAFETY: the token `Avx2` exists only where the feature was detected, and the
+        // intrinsic touches no memory.
+        unsafe { $e }
+    };
+}
+
+impl Simd for Avx2 {
+    const LANES: usize = 8;
+    type F = __m256;
+    type M = __m256;
+    type U = __m256i;
+
+    #[inline(always)]
+    fn splat(self, v: f32) -> Self::F {
+        intrinsic!(_mm256_set1_ps(v))
+    }
+    #[inline(always)]
+    fn load(self, from: &[f32]) -> Self::F {
+        let from = &from[..8];
+        // SAFETY: the token proves the feature; the slice has 8 floats.
+        unsafe { _mm256_loadu_ps(from.as_ptr()) }
+    }
+    #[inline(always)]
+    fn store(self, v: Self::F, to: &mut [f32]) {
+        let to = &mut to[..8];
+        // SAFETY: the token proves the feature; the slice has 8 floats.
+        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), v) }
+    }
+    #[inline(always)]
+    fn add(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm256_add_ps(a, b))
+    }
+    #[inline(always)]
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm256_sub_ps(a, b))
+    }
+    #[inline(always)]
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm256_mul_ps(a, b))
+    }
+    #[inline(always)]
+    fn div(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm256_div_ps(a, b))
+    }
+    #[inline(always)]
+    fn abs(self, a: Self::F) -> Self::F {
+        intrinsic!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), a))
+    }
+    #[inline(always)]
+    fn min(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm256_min_ps(a, b))
+    }
+    #[inline(always)]
+    fn max(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm256_max_ps(a, b))
+    }
+    #[inline(always)]
+    fn lt(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b))
+    }
+    #[inline(always)]
+    fn le(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b))
+    }
+    #[inline(always)]
+    fn eq(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(_mm256_cmp_ps::<_CMP_EQ_OQ>(a, b))
+    }
+    #[inline(always)]
+    fn and(self, a: Self::M, b: Self::M) -> Self::M {
+        intrinsic!(_mm256_and_ps(a, b))
+    }
+    #[inline(always)]
+    fn or(self, a: Self::M, b: Self::M) -> Self::M {
+        intrinsic!(_mm256_or_ps(a, b))
+    }
+    #[inline(always)]
+    fn select(self, m: Self::M, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm256_blendv_ps(b, a, m))
+    }
+    #[inline(always)]
+    fn bits(self, m: Self::M) -> u32 {
+        intrinsic!(_mm256_movemask_ps(m)).cast_unsigned()
+    }
+    #[inline(always)]
+    fn mask(self, bits: u32) -> Self::M {
+        intrinsic!({
+            let lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let all = _mm256_set1_epi32(bits.cast_signed());
+            _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(all, lane), lane))
+        })
+    }
+    #[inline(always)]
+    fn splat_u(self, v: u32) -> Self::U {
+        intrinsic!(_mm256_set1_epi32(v.cast_signed()))
+    }
+    #[inline(always)]
+    fn select_u(self, m: Self::M, a: Self::U, b: Self::U) -> Self::U {
+        intrinsic!(_mm256_castps_si256(_mm256_blendv_ps(_mm256_castsi256_ps(b), _mm256_castsi256_ps(a), m)))
+    }
+    #[inline(always)]
+    fn lt_u(self, a: Self::U, b: Self::U) -> Self::M {
+        // AVX2 compares signed integers only; moving both by 2³¹ keeps the order.
+        intrinsic!({
+            let half = _mm256_set1_epi32(i32::MIN);
+            _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_xor_si256(b, half), _mm256_xor_si256(a, half)))
+        })
+    }
+    #[inline(always)]
+    fn store_u(self, v: Self::U, to: &mut [u32]) {
+        let to = &mut to[..8];
+        // SAFETY: the token proves the feature; the slice has 8 integers.
+        unsafe { _mm256_storeu_si256(to.as_mut_ptr().cast(), v) }
+    }
+}

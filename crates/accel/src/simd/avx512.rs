@@ -1,0 +1,132 @@
+//! Sixteen lanes of AVX-512.
+
+use super::{Simd, Task};
+use std::arch::x86_64::*;
+
+/// Proof that AVX-512 F, BW, DQ and VL are present: only [`run`] makes one.
+#[derive(Clone, Copy, Debug)]
+pub struct Avx512(());
+
+/// Runs `task` with AVX-512.
+///
+/// The caller has checked `Level::Avx512.available()`.
+pub(super) fn run<T: Task>(task: T) -> T::Out {
+    #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn inner<T: Task>(task: T) -> T::Out {
+        task.run(Avx512(()))
+    }
+    // SAFETY: `Level::run` calls this only where the features were detected; every
+    // processor with AVX-512 VL has AVX2, BMI, LZCNT and POPCNT.
+    unsafe { inner(task) }
+}
+
+/// Wraps intrinsics without preconditions but their instruction set.
+macro_rules! intrinsic {
+    ($e:expr) => {
+        // SAFETY: the token `Avx512` exists only where the features were detected, and
+        // the intrinsic touches no memory.
+        unsafe { $e }
+    };
+}
+
+impl Simd for Avx512 {
+    const LANES: usize = 16;
+    type F = __m512;
+    type M = __mmask16;
+    type U = __m512i;
+
+    #[inline(always)]
+    fn splat(self, v: f32) -> Self::F {
+        intrinsic!(_mm512_set1_ps(v))
+    }
+    #[inline(always)]
+    fn load(self, from: &[f32]) -> Self::F {
+        let from = &from[..16];
+        // SAFETY: the token proves the features; the slice has 16 floats.
+        unsafe { _mm512_loadu_ps(from.as_ptr()) }
+    }
+    #[inline(always)]
+    fn store(self, v: Self::F, to: &mut [f32]) {
+        let to = &mut to[..16];
+        // SAFETY: the token proves the features; the slice has 16 floats.
+        unsafe { _mm512_storeu_ps(to.as_mut_ptr(), v) }
+    }
+    #[inline(always)]
+    fn add(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm512_add_ps(a, b))
+    }
+    #[inline(always)]
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm512_sub_ps(a, b))
+    }
+    #[inline(always)]
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm512_mul_ps(a, b))
+    }
+    #[inline(always)]
+    fn div(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm512_div_ps(a, b))
+    }
+    #[inline(always)]
+    fn abs(self, a: Self::F) -> Self::F {
+        intrinsic!(_mm512_abs_ps(a))
+    }
+    #[inline(always)]
+    fn min(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm512_min_ps(a, b))
+    }
+    #[inline(always)]
+    fn max(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm512_max_ps(a, b))
+    }
+    #[inline(always)]
+    fn lt(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b))
+    }
+    #[inline(always)]
+    fn le(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b))
+    }
+    #[inline(always)]
+    fn eq(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(_mm512_cmp_ps_mask::<_CMP_EQ_OQ>(a, b))
+    }
+    #[inline(always)]
+    fn and(self, a: Self::M, b: Self::M) -> Self::M {
+        a & b
+    }
+    #[inline(always)]
+    fn or(self, a: Self::M, b: Self::M) -> Self::M {
+        a | b
+    }
+    #[inline(always)]
+    fn select(self, m: Self::M, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(_mm512_mask_blend_ps(m, b, a))
+    }
+    #[inline(always)]
+    fn bits(self, m: Self::M) -> u32 {
+        u32::from(m)
+    }
+    #[inline(always)]
+    fn mask(self, bits: u32) -> Self::M {
+        bits as u16
+    }
+    #[inline(always)]
+    fn splat_u(self, v: u32) -> Self::U {
+        intrinsic!(_mm512_set1_epi32(v.cast_signed()))
+    }
+    #[inline(always)]
+    fn select_u(self, m: Self::M, a: Self::U, b: Self::U) -> Self::U {
+        intrinsic!(_mm512_mask_blend_epi32(m, b, a))
+    }
+    #[inline(always)]
+    fn lt_u(self, a: Self::U, b: Self::U) -> Self::M {
+        intrinsic!(_mm512_cmplt_epu32_mask(a, b))
+    }
+    #[inline(always)]
+    fn store_u(self, v: Self::U, to: &mut [u32]) {
+        let to = &mut to[..16];
+        // SAFETY: the token proves the features; the slice has 16 integers.
+        unsafe { _mm512_storeu_epi32(to.as_mut_ptr().cast(), v) }
+    }
+}

@@ -1,0 +1,134 @@
+//! Four lanes of NEON, which every aarch64 processor has.
+
+use super::{Simd, Task};
+use std::arch::aarch64::*;
+
+/// Proof that NEON is present.
+#[derive(Clone, Copy, Debug)]
+pub struct Neon(());
+
+/// Runs `task` with NEON.
+pub(super) fn run<T: Task>(task: T) -> T::Out {
+    task.run(Neon(()))
+}
+
+/// Wraps intrinsics without preconditions but their instruction set.
+macro_rules! intrinsic {
+    ($e:expr) => {
+        // SAFETY: NEON is part of every aarch64 target with a standard library, and the
+        // intrinsic touches no memory.
+        #[allow(unused_unsafe)]
+        unsafe {
+            $e
+        }
+    };
+}
+
+const LANE_BITS: [u32; 4] = [1, 2, 4, 8];
+
+impl Simd for Neon {
+    const LANES: usize = 4;
+    type F = float32x4_t;
+    type M = uint32x4_t;
+    type U = uint32x4_t;
+
+    #[inline(always)]
+    fn splat(self, v: f32) -> Self::F {
+        intrinsic!(vdupq_n_f32(v))
+    }
+    #[inline(always)]
+    fn load(self, from: &[f32]) -> Self::F {
+        let from = &from[..4];
+        // SAFETY: NEON is always present; the slice has 4 floats.
+        unsafe { vld1q_f32(from.as_ptr()) }
+    }
+    #[inline(always)]
+    fn store(self, v: Self::F, to: &mut [f32]) {
+        let to = &mut to[..4];
+        // SAFETY: NEON is always present; the slice has 4 floats.
+        unsafe { vst1q_f32(to.as_mut_ptr(), v) }
+    }
+    #[inline(always)]
+    fn add(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(vaddq_f32(a, b))
+    }
+    #[inline(always)]
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(vsubq_f32(a, b))
+    }
+    #[inline(always)]
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(vmulq_f32(a, b))
+    }
+    #[inline(always)]
+    fn div(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(vdivq_f32(a, b))
+    }
+    #[inline(always)]
+    fn abs(self, a: Self::F) -> Self::F {
+        intrinsic!(vabsq_f32(a))
+    }
+    #[inline(always)]
+    fn min(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(vminq_f32(a, b))
+    }
+    #[inline(always)]
+    fn max(self, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(vmaxq_f32(a, b))
+    }
+    #[inline(always)]
+    fn lt(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(vcltq_f32(a, b))
+    }
+    #[inline(always)]
+    fn le(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(vcleq_f32(a, b))
+    }
+    #[inline(always)]
+    fn eq(self, a: Self::F, b: Self::F) -> Self::M {
+        intrinsic!(vceqq_f32(a, b))
+    }
+    #[inline(always)]
+    fn and(self, a: Self::M, b: Self::M) -> Self::M {
+        intrinsic!(vandq_u32(a, b))
+    }
+    #[inline(always)]
+    fn or(self, a: Self::M, b: Self::M) -> Self::M {
+        intrinsic!(vorrq_u32(a, b))
+    }
+    #[inline(always)]
+    fn select(self, m: Self::M, a: Self::F, b: Self::F) -> Self::F {
+        intrinsic!(vbslq_f32(m, a, b))
+    }
+    #[inline(always)]
+    fn bits(self, m: Self::M) -> u32 {
+        // SAFETY: NEON is always present; the constant has 4 integers.
+        unsafe { vaddvq_u32(vandq_u32(m, vld1q_u32(LANE_BITS.as_ptr()))) }
+    }
+    #[inline(always)]
+    fn mask(self, bits: u32) -> Self::M {
+        // SAFETY: NEON is always present; the constant has 4 integers.
+        unsafe {
+            let lanes = vld1q_u32(LANE_BITS.as_ptr());
+            vceqq_u32(vandq_u32(vdupq_n_u32(bits), lanes), lanes)
+        }
+    }
+    #[inline(always)]
+    fn splat_u(self, v: u32) -> Self::U {
+        intrinsic!(vdupq_n_u32(v))
+    }
+    #[inline(always)]
+    fn select_u(self, m: Self::M, a: Self::U, b: Self::U) -> Self::U {
+        intrinsic!(vbslq_u32(m, a, b))
+    }
+    #[inline(always)]
+    fn lt_u(self, a: Self::U, b: Self::U) -> Self::M {
+        intrinsic!(vcltq_u32(a, b))
+    }
+    #[inline(always)]
+    fn store_u(self, v: Self::U, to: &mut [u32]) {
+        let to = &mut to[..4];
+        // SAFETY: NEON is always present; the slice has 4 integers.
+        unsafe { vst1q_u32(to.as_mut_ptr(), v) }
+    }
+}

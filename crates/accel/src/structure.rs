@@ -1,0 +1,231 @@
+//! The contract of acceleration structures.
+
+use crate::{Footprint, Hit, Ray, RaySet, Scene};
+use rayon::prelude::*;
+
+/// A built acceleration structure.
+///
+/// Traces in the current rayon pool: [`Accel::trace`] uses as many threads as that has.
+pub trait Accel: Send + Sync {
+    /// The nearest hit; on equal t the lowest object number.
+    fn closest(&self, ray: &Ray) -> Option<Hit>;
+
+    /// Whether anything is hit. Which object makes no difference.
+    fn occluded(&self, ray: &Ray) -> bool {
+        self.closest(ray).is_some()
+    }
+
+    /// The nearest hit of every ray, in the set's order.
+    ///
+    /// # Panics
+    /// If `hits` is not as long as the set.
+    fn trace(&self, rays: &RaySet, hits: &mut [Option<Hit>]) {
+        for_each_ray(rays, hits, |ray| self.closest(ray));
+    }
+
+    /// Whether anything is hit, for every ray in the set's order.
+    ///
+    /// # Panics
+    /// If `occluded` is not as long as the set.
+    fn trace_occluded(&self, rays: &RaySet, occluded: &mut [bool]) {
+        for_each_ray(rays, occluded, |ray| self.occluded(ray));
+    }
+
+    /// What the structure holds in memory.
+    fn footprint(&self) -> Footprint;
+
+    /// What was chosen at build time and why, in a line or a few; empty if nothing was.
+    fn plan(&self) -> String {
+        String::new()
+    }
+
+    /// What tracing `rays` costs in steps, or `None` if the structure can't tell. `occlusion` asks for
+    /// [`Accel::trace_occluded`] instead of [`Accel::trace`].
+    fn count(&self, rays: &RaySet, occlusion: bool) -> Option<Counters> {
+        let _ = (rays, occlusion);
+        None
+    }
+}
+
+/// Rays traced by one task of the thread pool.
+const CHUNK: usize = 4096;
+
+/// Writes `of` each ray to `out`, on all threads of the current pool.
+///
+/// # Panics
+/// If `out` is not as long as the set.
+pub fn for_each_ray<T: Send>(rays: &RaySet, out: &mut [T], of: impl Fn(&Ray) -> T + Sync) {
+    assert_eq!(rays.len(), out.len(), "one place for each ray");
+    let serve = |(chunk, out): (usize, &mut [T])| {
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = of(&rays.ray(chunk * CHUNK + i));
+        }
+    };
+    if rayon::current_num_threads() == 1 {
+        out.chunks_mut(CHUNK).enumerate().for_each(serve);
+    } else {
+        out.par_chunks_mut(CHUNK).enumerate().for_each(serve);
+    }
+}
+
+/// What a workload requires. A structure builds nothing that the need doesn't name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Need {
+    /// Primary rays of this image.
+    pub raster: Option<crate::Raster>,
+    /// Any rays whatever.
+    pub general: bool,
+}
+
+impl Need {
+    /// Any rays whatever.
+    pub const GENERAL: Self = Self { raster: None, general: true };
+
+    /// The primary rays of one image and no others.
+    pub const fn raster(raster: crate::Raster) -> Self {
+        Self { raster: Some(raster), general: false }
+    }
+
+    /// What tracing `rays` requires.
+    pub fn of(rays: &RaySet) -> Self {
+        match rays {
+            RaySet::Raster(raster) => Self::raster(*raster),
+            RaySet::List(_) => Self::GENERAL,
+        }
+    }
+}
+
+/// Makes structures of one kind with fixed settings.
+pub trait Builder: Send + Sync {
+    /// The structure's id, such as `bmssm-dense`.
+    fn id(&self) -> &str;
+
+    /// The settings, as `name=value` separated by blanks.
+    fn settings(&self) -> String;
+
+    /// Builds for a scene and a need, in the current rayon pool.
+    ///
+    /// Rays that the need doesn't name may get no answer from the result: they panic.
+    ///
+    /// # Errors
+    /// Where the structure can't serve this scene or need, or its memory would not fit.
+    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError>;
+}
+
+/// Why a structure was not built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    /// The structure has no way to serve this.
+    #[error("{structure} does not serve {what}")]
+    Unsupported {
+        /// The structure's id.
+        structure: String,
+        /// What it does not serve.
+        what: String,
+    },
+    /// The memory would exceed the limit.
+    #[error(
+        "{structure} would take {bytes} bytes, more than the limit of {limit} bytes; choose a lower resolution"
+    )]
+    TooLarge {
+        /// The structure's id.
+        structure: String,
+        /// Bytes it would take.
+        bytes: u128,
+        /// Bytes there are.
+        limit: u128,
+    },
+    /// A setting makes no sense.
+    #[error("{structure}: {setting}: {problem}")]
+    Setting {
+        /// The structure's id.
+        structure: String,
+        /// The setting's name.
+        setting: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The library behind the structure failed.
+    #[error("{structure}: {message}")]
+    Library {
+        /// The structure's id.
+        structure: String,
+        /// What the library said.
+        message: String,
+    },
+}
+
+/// Counts steps of a traversal; [`NoCount`] compiles to nothing.
+pub trait Count: Default + Send {
+    /// Words of bit maps combined.
+    fn words(&mut self, n: u64);
+    /// Blocks of objects looked at.
+    fn blocks(&mut self, n: u64);
+    /// Cells or nodes visited.
+    fn cells(&mut self, n: u64);
+    /// Candidates: bits set, or list entries met.
+    fn candidates(&mut self, n: u64);
+    /// Objects tested in detail.
+    fn tests(&mut self, n: u64);
+}
+
+/// Counts nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoCount;
+
+impl Count for NoCount {
+    #[inline(always)]
+    fn words(&mut self, _: u64) {}
+    #[inline(always)]
+    fn blocks(&mut self, _: u64) {}
+    #[inline(always)]
+    fn cells(&mut self, _: u64) {}
+    #[inline(always)]
+    fn candidates(&mut self, _: u64) {}
+    #[inline(always)]
+    fn tests(&mut self, _: u64) {}
+}
+
+/// Sums of steps over a set of rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Words of bit maps combined.
+    pub words: u64,
+    /// Blocks of objects looked at.
+    pub blocks: u64,
+    /// Cells or nodes visited.
+    pub cells: u64,
+    /// Candidates: bits set, or list entries met.
+    pub candidates: u64,
+    /// Objects tested in detail.
+    pub tests: u64,
+}
+
+impl Counters {
+    /// Adds another's sums.
+    pub fn merge(&mut self, other: &Self) {
+        self.words += other.words;
+        self.blocks += other.blocks;
+        self.cells += other.cells;
+        self.candidates += other.candidates;
+        self.tests += other.tests;
+    }
+}
+
+impl Count for Counters {
+    fn words(&mut self, n: u64) {
+        self.words += n;
+    }
+    fn blocks(&mut self, n: u64) {
+        self.blocks += n;
+    }
+    fn cells(&mut self, n: u64) {
+        self.cells += n;
+    }
+    fn candidates(&mut self, n: u64) {
+        self.candidates += n;
+    }
+    fn tests(&mut self, n: u64) {
+        self.tests += n;
+    }
+}
