@@ -1,5 +1,6 @@
 //! The contract that ray-tracing acceleration structures are compared under: rays, hits,
-//! objects, scenes, ray-object kernels, grid arithmetic, memory footprints, and brute force.
+//! objects, scenes, ray-object kernels, grid arithmetic, memory footprints, brute force, and an
+//! oracle that rounds nothing.
 //!
 //! Every structure stands behind [`Accel`] and is made by a [`Builder`] from a [`Scene`] and
 //! a [`Need`]. What a structure knows of the scene is [`Objects`].
@@ -7,6 +8,7 @@
 mod aabb;
 pub mod baseline;
 pub mod dda;
+pub mod exact;
 mod footprint;
 pub mod grid;
 pub mod kernel;
