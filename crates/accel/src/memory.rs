@@ -1,0 +1,31 @@
+//! How much memory a structure may take.
+
+/// Taken where the system does not tell: 16 GiB.
+const UNKNOWN: u128 = 16 << 30;
+
+/// Bytes that can be allocated now without swapping: the default limit that builders hold
+/// their needs against before they allocate (see [`crate::BuildError::TooLarge`]).
+///
+/// Read from `/proc/meminfo`; 16 GiB where there is none.
+pub fn available_memory() -> u128 {
+    std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| available(&text)).unwrap_or(UNKNOWN)
+}
+
+fn available(meminfo: &str) -> Option<u128> {
+    let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: u128 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes * 1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_is_read_in_bytes() {
+        let text = "MemTotal:       16316412 kB\nMemAvailable:    1024 kB\n";
+        assert_eq!(available(text), Some(1 << 20));
+        assert_eq!(available("MemTotal: 1 kB\n"), None);
+        assert!(available_memory() > 0);
+    }
+}
