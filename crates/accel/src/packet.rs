@@ -15,13 +15,20 @@ pub struct Packet<S: Simd> {
     pub direction: Vec3Lanes<S>,
     /// Least t of each ray.
     pub t_min: S::F,
+    /// Greatest t of each ray; a nearest hit so far may limit it further.
+    pub t_max: S::F,
 }
 
 impl<S: Simd> Packet<S> {
     /// The same ray in all lanes.
     #[inline(always)]
     pub fn splat(s: S, ray: &Ray) -> Self {
-        Self { origin: splat3(s, ray.origin), direction: splat3(s, ray.direction), t_min: s.splat(ray.t_min) }
+        Self {
+            origin: splat3(s, ray.origin),
+            direction: splat3(s, ray.direction),
+            t_min: s.splat(ray.t_min),
+            t_max: s.splat(ray.t_max),
+        }
     }
 
     /// The first `LANES` of `rays`.
@@ -42,10 +49,11 @@ impl<S: Simd> Packet<S> {
             origin: [0, 1, 2].map(|axis| lanes(&|ray| ray.origin[axis])),
             direction: [0, 1, 2].map(|axis| lanes(&|ray| ray.direction[axis])),
             t_min: lanes(&|ray| ray.t_min),
+            t_max: lanes(&|ray| ray.t_max),
         }
     }
 
-    /// The ray of one lane, with an infinite `t_max`. For paths that are taken rarely.
+    /// The ray of one lane. For paths that are taken rarely.
     #[inline(always)]
     pub fn ray(&self, s: S, lane: usize) -> Ray {
         let at = |v: S::F| lane_of(s, v, lane);
@@ -53,7 +61,7 @@ impl<S: Simd> Packet<S> {
             origin: Vec3::from_array(self.origin.map(at)),
             direction: Vec3::from_array(self.direction.map(at)),
             t_min: at(self.t_min),
-            t_max: f32::INFINITY,
+            t_max: at(self.t_max),
         }
     }
 }
@@ -139,6 +147,22 @@ impl<S: Simd> NearestPacket<S> {
         let id = s.splat_u(object);
         let tie = s.and(s.eq(lanes.t, self.t), s.lt_u(id, self.object));
         let wins = s.and(lanes.hit, s.or(s.lt(lanes.t, self.t), tie));
+        self.take(s, wins, object, lanes);
+    }
+
+    /// The lanes where `lanes` hits at the same t as another object before.
+    #[inline(always)]
+    pub fn ties(&self, s: S, object: u32, lanes: &Lanes<S>) -> S::M {
+        let id = s.splat_u(object);
+        let other = s.or(s.lt_u(id, self.object), s.lt_u(self.object, id));
+        let taken = s.lt_u(self.object, s.splat_u(Nearest::NONE));
+        s.and(s.and(lanes.hit, s.eq(lanes.t, self.t)), s.and(other, taken))
+    }
+
+    /// Takes the hits on `object` of the lanes `wins` over what is here.
+    #[inline(always)]
+    pub fn take(&mut self, s: S, wins: S::M, object: u32, lanes: &Lanes<S>) {
+        let id = s.splat_u(object);
         self.t = s.select(wins, lanes.t, self.t);
         self.u = s.select(wins, lanes.u, self.u);
         self.v = s.select(wins, lanes.v, self.v);

@@ -136,7 +136,15 @@ impl Nearest {
     /// Takes a hit on `object` if it comes before what is here.
     #[inline]
     pub fn offer(&mut self, object: u32, surface: Surface) {
-        if surface.t < self.t || (surface.t == self.t && object < self.object) {
+        self.offer_by(object, surface, |other| object < other);
+    }
+
+    /// [`Nearest::offer`], with `precedes` to say whether `object` comes before the other object hit at
+    /// the same reported t.
+    #[inline(always)]
+    pub fn offer_by(&mut self, object: u32, surface: Surface, precedes: impl FnOnce(u32) -> bool) {
+        let tie = || self.object == Self::NONE || (self.object != object && precedes(self.object));
+        if surface.t < self.t || (surface.t == self.t && tie()) {
             *self = Self { t: surface.t, object, u: surface.u, v: surface.v };
         }
     }

@@ -89,9 +89,7 @@ impl<O: Objects, V: Volume> Built<O, V> {
         for (id, volume) in (0..).zip(&self.volumes) {
             if volume.may_meet(ray, best.t) {
                 count.tests(1);
-                if let Some(surface) = self.objects.intersect(id, ray, best.t) {
-                    best.offer(id, surface);
-                }
+                self.objects.closest(id, ray, &mut best);
             }
         }
         best

@@ -4,15 +4,21 @@
 //! against several triangles (lists of rays) and several rays against one triangle
 //! (rasters). Both, and the scalar form, give the same bits.
 
+mod baldwin_weber;
+mod double;
 mod moller_trumbore;
 mod watertight;
+mod wide;
 
+pub use baldwin_weber::BaldwinWeber;
+pub use double::Double;
 pub use moller_trumbore::MollerTrumbore;
 pub use watertight::Watertight;
 
 use crate::packet::{Lanes, Packet, Vec3Lanes};
 use crate::simd::{ROW, Row, Scalar, Simd};
 use crate::{Ray, Surface, Vec3};
+use std::cmp::Ordering;
 
 /// The three corners of a triangle.
 pub type Corners = [Vec3; 3];
@@ -23,6 +29,8 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     const ID: KernelId;
     /// Rows of packed geometry for each group of [`ROW`] triangles.
     const ROWS: usize = 9;
+    /// Whether hits of different triangles at the same reported t need [`Kernel::order`]; otherwise their numbers decide.
+    const ORDERS_TIES: bool = false;
     /// What is computed once for a ray.
     type One: Copy + Send + Sync;
     /// What is computed once for `LANES` rays.
@@ -57,6 +65,13 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// `LANES` rays against the triangle in lane `lane` of a group, with t up to `t_max`.
     fn rays<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S>;
 
+    /// The order along the ray of the hits of two triangles that are reported at the same t; where equal,
+    /// the lower number comes first. Called only for kernels with [`Kernel::ORDERS_TIES`].
+    fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
+        let _ = (ray, a, b);
+        Ordering::Equal
+    }
+
     /// One ray against one triangle.
     #[inline]
     fn test(ray: &Self::One, corners: &Corners, t_max: f32) -> Option<Surface> {
@@ -74,19 +89,25 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
 pub enum KernelId {
     /// [`MollerTrumbore`]
     MollerTrumbore,
+    /// [`BaldwinWeber`]
+    BaldwinWeber,
     /// [`Watertight`]
     Watertight,
+    /// [`Double`]
+    Double,
 }
 
 impl KernelId {
     /// All kernels there are.
-    pub const ALL: [Self; 2] = [Self::MollerTrumbore, Self::Watertight];
+    pub const ALL: [Self; 4] = [Self::MollerTrumbore, Self::BaldwinWeber, Self::Watertight, Self::Double];
 
     /// Name as used in settings and records.
     pub const fn id(self) -> &'static str {
         match self {
             Self::MollerTrumbore => "moller-trumbore",
+            Self::BaldwinWeber => "baldwin-weber",
             Self::Watertight => "watertight",
+            Self::Double => "double",
         }
     }
 
@@ -100,7 +121,9 @@ impl KernelId {
     pub fn with<W: WithKernel>(self, with: W) -> W::Out {
         match self {
             Self::MollerTrumbore => with.kernel::<MollerTrumbore>(),
+            Self::BaldwinWeber => with.kernel::<BaldwinWeber>(),
             Self::Watertight => with.kernel::<Watertight>(),
+            Self::Double => with.kernel::<Double>(),
         }
     }
 }

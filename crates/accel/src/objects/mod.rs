@@ -50,6 +50,18 @@ pub trait Objects: Copy + Send + Sync {
     /// If there is no such object.
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface>;
 
+    /// Tests an object and takes its hit if that comes before `best`: at a lower t, or at the same reported t
+    /// by number unless the objects can tell their order more exactly.
+    ///
+    /// # Panics
+    /// If there is no such object.
+    #[inline]
+    fn closest(&self, id: u32, ray: &Ray, best: &mut Nearest) {
+        if let Some(surface) = self.intersect(id, ray, best.t) {
+            best.offer(id, surface);
+        }
+    }
+
     /// Copies the objects into blocks: slot i holds object `order[i]`, or nothing for [`EMPTY_SLOT`].
     fn blocks(&self, order: &[u32]) -> Self::Blocks;
 }

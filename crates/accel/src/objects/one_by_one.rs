@@ -1,7 +1,7 @@
 //! Blocks of objects that know no packed form.
 
 use super::{Blocks, EMPTY_SLOT, Objects};
-use crate::packet::{NearestPacket, Packet, lane_of};
+use crate::packet::{Lanes, NearestPacket, Packet};
 use crate::simd::{ROW, Simd};
 use crate::{Nearest, Ray};
 
@@ -48,10 +48,8 @@ impl<O: Objects> Blocks for OneByOne<O> {
             let slot = block * super::BLOCK + mask.trailing_zeros() as usize;
             mask &= mask - 1;
             let object = self.order[slot];
-            if object != EMPTY_SLOT
-                && let Some(surface) = self.objects.intersect(object, ray, best.t)
-            {
-                best.offer(object, surface);
+            if object != EMPTY_SLOT {
+                self.objects.closest(object, ray, best);
             }
         }
     }
@@ -62,19 +60,21 @@ impl<O: Objects> Blocks for OneByOne<O> {
         if object == EMPTY_SLOT {
             return;
         }
+        let mut before = [Nearest::new(0.0); ROW];
+        best.store(s, &mut before);
         let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
-        let mut hit = 0;
+        let mut wins = 0;
         for lane in 0..S::LANES {
-            let t_max = lane_of(s, best.t, lane);
-            if t_max == f32::NEG_INFINITY {
+            let mut nearest = before[lane];
+            if nearest.t == f32::NEG_INFINITY {
                 continue;
             }
-            if let Some(surface) = self.objects.intersect(object, &rays.ray(s, lane), t_max) {
-                hit |= 1 << lane;
-                (t[lane], u[lane], v[lane]) = (surface.t, surface.u, surface.v);
-            }
+            self.objects.closest(object, &rays.ray(s, lane), &mut nearest);
+            wins |= u32::from(nearest.object != before[lane].object) << lane;
+            (t[lane], u[lane], v[lane]) = (nearest.t, nearest.u, nearest.v);
         }
-        let lanes = crate::packet::Lanes { hit: s.mask(hit), t: s.load(&t), u: s.load(&u), v: s.load(&v) };
-        best.offer(s, object, &lanes);
+        let wins = s.mask(wins);
+        let lanes = Lanes { hit: wins, t: s.load(&t), u: s.load(&u), v: s.load(&v) };
+        best.take(s, wins, object, &lanes);
     }
 }

@@ -2,9 +2,10 @@
 
 use super::{BLOCK, Blocks, EMPTY_SLOT, Objects, lawful, pad_of};
 use crate::kernel::{Corners, Kernel};
-use crate::packet::{NearestPacket, Packet};
+use crate::packet::{Lanes, NearestPacket, Packet};
 use crate::simd::{ROW, Row, Simd};
 use crate::{Aabb, Mesh, Nearest, Ray, Surface, Vec3};
+use std::cmp::Ordering;
 use std::marker::PhantomData;
 
 /// The triangles of a mesh, tested by kernel `K`.
@@ -87,6 +88,18 @@ impl<'s, K: Kernel> Triangles<'s, K> {
     fn corners(&self, id: u32) -> Corners {
         self.mesh.corners(id as usize)
     }
+
+    /// Whether `a` comes before `b`, both hit at the same reported t.
+    #[inline]
+    fn precedes(&self, ray: &Ray, a: u32, b: u32) -> bool {
+        let order = if K::ORDERS_TIES { self.order(ray, a, b) } else { Ordering::Equal };
+        order.then(a.cmp(&b)).is_lt()
+    }
+
+    #[cold]
+    fn order(&self, ray: &Ray, a: u32, b: u32) -> Ordering {
+        K::order(ray, &self.corners(a), &self.corners(b))
+    }
 }
 
 impl<'s, K: Kernel> Objects for Triangles<'s, K> {
@@ -105,6 +118,13 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
         let corners = self.corners(id);
         let surface = K::test(&K::one(ray), &corners, t_max)?;
         self.frame.lawful(&corners, ray, self.frame.is_near(ray.origin), surface.t).then_some(surface)
+    }
+
+    #[inline]
+    fn closest(&self, id: u32, ray: &Ray, best: &mut Nearest) {
+        if let Some(surface) = self.intersect(id, ray, best.t) {
+            best.offer_by(id, surface, |other| self.precedes(ray, id, other));
+        }
     }
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
@@ -137,6 +157,34 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     #[inline(always)]
     fn corners(&self, group: &[Row], slot: usize) -> Corners {
         K::corners(group, slot % ROW).unwrap_or_else(|| self.triangles.corners(self.order[slot]))
+    }
+
+    /// Decides the lanes that hit `object` at the same t as another object, and strikes them off `lanes`.
+    #[inline(always)]
+    fn take_ties<S: Simd>(
+        &self,
+        s: S,
+        object: u32,
+        lanes: &mut Lanes<S>,
+        rays: &Packet<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let mut ties = s.bits(best.ties(s, object, lanes));
+        if ties == 0 {
+            return;
+        }
+        let settled = s.bits(lanes.hit) & !ties;
+        let mut others = [Nearest::new(0.0); ROW];
+        best.store(s, &mut others);
+        let mut wins = 0;
+        while ties != 0 {
+            let lane = ties.trailing_zeros() as usize;
+            ties &= ties - 1;
+            let wins_here = self.triangles.precedes(&rays.ray(s, lane), object, others[lane].object);
+            wins |= u32::from(wins_here) << lane;
+        }
+        best.take(s, s.mask(wins), object, lanes);
+        lanes.hit = s.mask(settled);
     }
 
     /// Calls `found` with every lawful hit among the set bits until it says to stop.
@@ -212,7 +260,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
         self.visit(s, block, mask, ray, best.t, |object, surface| {
-            best.offer(object, surface);
+            best.offer_by(object, surface, |other| self.triangles.precedes(&ray.ray, object, other));
             Some(best.t)
         });
     }
@@ -251,7 +299,11 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
             }
             lanes.hit = s.mask(lawful);
         }
-        best.offer(s, self.order[slot], &lanes);
+        let object = self.order[slot];
+        if K::ORDERS_TIES {
+            self.take_ties(s, object, &mut lanes, &rays.rays, best);
+        }
+        best.offer(s, object, &lanes);
     }
 }
 
