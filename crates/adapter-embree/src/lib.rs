@@ -1,1 +1,13 @@
-//! Stands behind `accel::Accel`.
+//! Embree 4 behind `accel::Accel`.
+//!
+//! The foreign functions are declared in [`sys`] and used in [`device`], [`scene`] and [`denormals`]
+//! alone; everything these offer is safe unless it says otherwise.
+
+pub mod denormals;
+pub mod device;
+pub mod rayhit;
+pub mod scene;
+pub mod sys;
+
+pub use device::{Device, EmbreeError, MemoryUse};
+pub use scene::{EmbreeScene, Quality, SceneSettings};

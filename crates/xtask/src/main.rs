@@ -1,3 +1,64 @@
-//! `cargo xtask compare | test | setup`.
+//! Set-up and the two commands of the README.
+//!
+//! ```text
+//! cargo xtask setup             find or install Embree 4, fetch the real meshes
+//! cargo xtask compare [ARGS]    set up, then `rayscale compare ARGS`
+//! cargo xtask test              set up, then every check of the workspace
+//! ```
+#![forbid(unsafe_code)]
 
-fn main() {}
+mod checks;
+mod compare;
+mod embree;
+mod host;
+mod meshes;
+mod pip;
+mod places;
+mod setup;
+mod shell;
+mod tally;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask <command>
+
+  setup             find Embree 4 or install it; fetch the real meshes
+  compare [ARGS]    set up, build, then run `rayscale compare ARGS`
+  test              set up, then formatting, lints, tests, documentation
+
+Exit codes: 0 done, 1 a step failed, 2 bad usage.";
+
+fn main() -> ExitCode {
+    let mut args = std::env::args().skip(1);
+    let verb = args.next().unwrap_or_default();
+    let rest: Vec<String> = args.collect();
+    let places = places::Places::of_this_checkout();
+    match (verb.as_str(), rest.is_empty()) {
+        ("setup", true) => match setup::run(&places) {
+            Ok(_) => ExitCode::SUCCESS,
+            Err(why) => fail(&format!("set-up failed: {why}")),
+        },
+        ("compare", _) => match setup::run(&places) {
+            Ok(ready) => compare::run(&places, &ready, &rest),
+            Err(why) => fail(&format!("set-up failed: {why}")),
+        },
+        ("test", true) => match setup::run(&places) {
+            Ok(ready) => checks::run(&places, &ready),
+            Err(why) => fail(&format!("set-up failed: {why}")),
+        },
+        ("help" | "--help" | "-h", _) => {
+            println!("{USAGE}");
+            ExitCode::SUCCESS
+        }
+        _ => {
+            eprintln!("{USAGE}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn fail(message: &str) -> ExitCode {
+    eprintln!("xtask: {message}");
+    ExitCode::FAILURE
+}

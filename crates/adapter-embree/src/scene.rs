@@ -1,0 +1,310 @@
+//! Triangle scenes and the queries on them.
+
+use std::borrow::Cow;
+use std::ptr::NonNull;
+
+use accel::{Hit, Mesh, Ray, Vec3, vec_bytes};
+
+use crate::device::{Device, EmbreeError, MemoryUse};
+use crate::rayhit::{Ray1, RayHit1, RayHit16, Valid16};
+use crate::sys::{self, QueryArguments};
+
+/// How much time a build may take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// `RTC_BUILD_QUALITY_LOW`: Morton order.
+    Low,
+    /// `RTC_BUILD_QUALITY_MEDIUM`: surface-area heuristic.
+    #[default]
+    Medium,
+    /// `RTC_BUILD_QUALITY_HIGH`: with spatial splits, which robust and compact scenes lose.
+    High,
+}
+
+impl Quality {
+    /// Its name as a setting.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Low => "low",
+            Self::Medium => "medium",
+            Self::High => "high",
+        }
+    }
+
+    /// The quality of that name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        [Self::Low, Self::Medium, Self::High].into_iter().find(|quality| quality.id() == id)
+    }
+
+    /// `RTCBuildQuality`.
+    const fn code(self) -> i32 {
+        match self {
+            Self::Low => 0,
+            Self::Medium => 1,
+            Self::High => 2,
+        }
+    }
+}
+
+/// How a scene is built.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SceneSettings {
+    /// Time allowed for the build.
+    pub quality: Quality,
+    /// `RTC_SCENE_FLAG_ROBUST`: no misses at shared edges.
+    pub robust: bool,
+    /// `RTC_SCENE_FLAG_COMPACT`: less memory; reads the scene's own vertices.
+    pub compact: bool,
+}
+
+static SINGLE_RAYS: QueryArguments = QueryArguments::new(sys::RTC_RAY_QUERY_FLAG_INCOHERENT);
+static COHERENT_RAYS: QueryArguments = QueryArguments::new(sys::RTC_RAY_QUERY_FLAG_COHERENT);
+
+/// A committed scene of one triangle mesh, whose buffers it reads where they lie.
+///
+/// Rays: t_min below 0 counts as 0, and a hit at t_min itself is no hit (Embree's ranges are open
+/// at their start); a triangle with a coordinate beyond 1.8e18 is left out by Embree.
+pub struct EmbreeScene<'m> {
+    handle: NonNull<sys::RTCSceneTy>,
+    /// Released after the scene.
+    device: Device,
+    /// What Embree reads; borrowed where the last position can be read with 16 bytes.
+    positions: Cow<'m, [Vec3]>,
+    positions_copied: usize,
+    _triangles: &'m [[u32; 3]],
+}
+
+// SAFETY: a committed scene is only read by queries, which Embree allows from any thread and from
+// several at once; the buffers are only read.
+unsafe impl Send for EmbreeScene<'_> {}
+// SAFETY: as above.
+unsafe impl Sync for EmbreeScene<'_> {}
+
+impl<'m> EmbreeScene<'m> {
+    /// Builds with as many threads as `device` was made with. The device serves this scene alone, so
+    /// that its memory is the scene's.
+    ///
+    /// The mesh's buffers are shared with Embree. Embree reads 16 bytes at each position, so 4 bytes
+    /// past the last: where the vector of positions has no spare capacity, they are copied.
+    ///
+    /// # Errors
+    /// If a triangle names a position that there is not, or Embree fails.
+    pub fn new(device: Device, mesh: &'m Mesh, settings: SceneSettings) -> Result<Self, EmbreeError> {
+        check_indices(mesh)?;
+        let (positions, positions_copied) = readable_by_16_bytes(&mesh.positions);
+        // SAFETY: the device is live.
+        let handle = unsafe { sys::rtcNewScene(device.handle()) };
+        let Some(handle) = NonNull::new(handle) else {
+            device.check("making a scene")?;
+            return Err(no_handle("making a scene"));
+        };
+        let scene =
+            Self { handle, device, positions, positions_copied, _triangles: mesh.triangles.as_slice() };
+        let mut flags = 0;
+        if settings.robust {
+            flags |= sys::RTC_SCENE_FLAG_ROBUST;
+        }
+        if settings.compact {
+            flags |= sys::RTC_SCENE_FLAG_COMPACT;
+        }
+        // SAFETY: the handle is live.
+        unsafe {
+            sys::rtcSetSceneFlags(scene.handle.as_ptr(), flags);
+            sys::rtcSetSceneBuildQuality(scene.handle.as_ptr(), settings.quality.code());
+        }
+        scene.device.check("setting up a scene")?;
+        if !mesh.triangles.is_empty() {
+            scene.attach(&mesh.triangles, settings.quality)?;
+        }
+        // SAFETY: the handle is live, and every index was checked.
+        unsafe { sys::rtcCommitScene(scene.handle.as_ptr()) };
+        scene.device.check("building a scene")?;
+        Ok(scene)
+    }
+
+    fn attach(&self, triangles: &[[u32; 3]], quality: Quality) -> Result<(), EmbreeError> {
+        // SAFETY: the device is live.
+        let geometry = unsafe { sys::rtcNewGeometry(self.device.handle(), sys::RTC_GEOMETRY_TYPE_TRIANGLE) };
+        if geometry.is_null() {
+            self.device.check("making a geometry")?;
+            return Err(no_handle("making a geometry"));
+        }
+        // SAFETY: the geometry is live. Both buffers hold as many items as is said, stay where they
+        // are and unchanged while the scene lives (they are borrowed or owned by it), and the last
+        // position is followed by at least 4 bytes of the same allocation. The scene keeps a
+        // reference to the geometry, so ours is released.
+        unsafe {
+            sys::rtcSetSharedGeometryBuffer(
+                geometry,
+                sys::RTC_BUFFER_TYPE_VERTEX,
+                0,
+                sys::RTC_FORMAT_FLOAT3,
+                self.positions.as_ptr().cast(),
+                0,
+                size_of::<Vec3>(),
+                self.positions.len(),
+            );
+            sys::rtcSetSharedGeometryBuffer(
+                geometry,
+                sys::RTC_BUFFER_TYPE_INDEX,
+                0,
+                sys::RTC_FORMAT_UINT3,
+                triangles.as_ptr().cast(),
+                0,
+                size_of::<[u32; 3]>(),
+                triangles.len(),
+            );
+            sys::rtcSetGeometryBuildQuality(geometry, quality.code());
+            sys::rtcCommitGeometry(geometry);
+            sys::rtcAttachGeometry(self.handle.as_ptr(), geometry);
+            sys::rtcReleaseGeometry(geometry);
+        }
+        self.device.check("attaching triangles")
+    }
+
+    /// The nearest hit of one ray (`rtcIntersect1`).
+    #[inline]
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let mut rayhit = RayHit1::new(single(ray));
+        // SAFETY: the scene is committed; the ray-hit has the layout and alignment that Embree 4.0
+        // to 4.4 write to; the arguments are only read.
+        unsafe { sys::rtcIntersect1(self.handle.as_ptr(), &raw mut rayhit, &raw const SINGLE_RAYS) };
+        let hit = &rayhit.hit;
+        (hit.geom != sys::RTC_INVALID_GEOMETRY_ID).then_some(Hit {
+            t: rayhit.ray.tfar,
+            object: hit.prim,
+            u: hit.u,
+            v: hit.v,
+        })
+    }
+
+    /// Whether one ray hits anything (`rtcOccluded1`).
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        let mut ray = single(ray);
+        // SAFETY: as for `closest`.
+        unsafe { sys::rtcOccluded1(self.handle.as_ptr(), &raw mut ray, &raw const SINGLE_RAYS) };
+        ray.tfar == f32::NEG_INFINITY
+    }
+
+    /// The nearest hits of up to 16 rays that go the same way (`rtcIntersect16`).
+    ///
+    /// # Panics
+    /// If there are more than 16 rays, or fewer places for hits than rays.
+    #[inline]
+    pub fn closest16(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        let mut packet = packet(rays);
+        let valid = Valid16::first(rays.len());
+        // SAFETY: as for `closest`, with the layout of 16; the mask is aligned to 64 bytes.
+        unsafe {
+            sys::rtcIntersect16(
+                &raw const valid,
+                self.handle.as_ptr(),
+                &raw mut packet,
+                &raw const COHERENT_RAYS,
+            );
+        }
+        for (lane, hit) in hits[..rays.len()].iter_mut().enumerate() {
+            let found = &packet.hit;
+            *hit = (found.geom[lane] != sys::RTC_INVALID_GEOMETRY_ID).then_some(Hit {
+                t: packet.ray.tfar[lane],
+                object: found.prim[lane],
+                u: found.u[lane],
+                v: found.v[lane],
+            });
+        }
+    }
+
+    /// Whether up to 16 rays that go the same way hit anything (`rtcOccluded16`).
+    ///
+    /// # Panics
+    /// If there are more than 16 rays, or fewer places than rays.
+    #[inline]
+    pub fn occluded16(&self, rays: &[Ray], occluded: &mut [bool]) {
+        let mut packet = packet(rays).ray;
+        let valid = Valid16::first(rays.len());
+        // SAFETY: as for `closest16`.
+        unsafe {
+            sys::rtcOccluded16(
+                &raw const valid,
+                self.handle.as_ptr(),
+                &raw mut packet,
+                &raw const COHERENT_RAYS,
+            );
+        }
+        for (lane, occluded) in occluded[..rays.len()].iter_mut().enumerate() {
+            *occluded = packet.tfar[lane] == f32::NEG_INFINITY;
+        }
+    }
+
+    /// What Embree holds for this scene and held at most while building it, by its memory monitor.
+    pub fn memory(&self) -> MemoryUse {
+        self.device.memory()
+    }
+
+    /// Bytes of positions that were copied because they could not be shared; mostly 0.
+    pub fn copied_bytes(&self) -> usize {
+        self.positions_copied
+    }
+
+    /// Version of Embree: major, minor, patch.
+    pub fn version(&self) -> (u32, u32, u32) {
+        self.device.version()
+    }
+
+    #[cfg(test)]
+    pub(crate) fn handle(&self) -> *mut sys::RTCSceneTy {
+        self.handle.as_ptr()
+    }
+}
+
+impl Drop for EmbreeScene<'_> {
+    fn drop(&mut self) {
+        // SAFETY: the handle is live and this is its only reference; device and buffers go after it.
+        unsafe { sys::rtcReleaseScene(self.handle.as_ptr()) };
+    }
+}
+
+fn no_handle(doing: &'static str) -> EmbreeError {
+    EmbreeError::Call { doing, code: 0, message: "no handle and no error".to_owned() }
+}
+
+/// Embree trusts indices; a wrong one would be read out of bounds.
+fn check_indices(mesh: &Mesh) -> Result<(), EmbreeError> {
+    let positions = mesh.positions.len();
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        if let Some(&position) = corners.iter().find(|&&corner| corner as usize >= positions) {
+            return Err(EmbreeError::Index { triangle, position, positions });
+        }
+    }
+    Ok(())
+}
+
+/// The positions in memory that goes on for at least one more, and the bytes copied for it.
+fn readable_by_16_bytes(positions: &Vec<Vec3>) -> (Cow<'_, [Vec3]>, usize) {
+    if positions.capacity() > positions.len() {
+        return (Cow::Borrowed(positions), 0);
+    }
+    let mut padded = Vec::with_capacity(positions.len() + 1);
+    padded.extend_from_slice(positions);
+    let bytes = vec_bytes(&padded);
+    (Cow::Owned(padded), bytes)
+}
+
+#[inline]
+fn single(ray: &Ray) -> Ray1 {
+    Ray1::new(ray.origin.to_array(), ray.direction.to_array(), ray.t_min, ray.t_max)
+}
+
+#[inline]
+fn packet(rays: &[Ray]) -> RayHit16 {
+    assert!(rays.len() <= 16, "a packet holds 16 rays");
+    let mut packet = RayHit16::empty();
+    for (lane, ray) in rays.iter().enumerate() {
+        packet.set(lane, &single(ray));
+    }
+    packet
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,163 @@
+use super::*;
+use crate::rayhit::{Ray16, RayHit1};
+
+/// n × n squares of two triangles in the plane z = 1, number 2·(row·n + column) and the next.
+fn sheet(n: u32) -> Mesh {
+    let at = |i: u32| i as f32;
+    let positions = (0..=n).flat_map(|y| (0..=n).map(move |x| Vec3::new(at(x), at(y), 1.0))).collect();
+    let triangles = (0..n)
+        .flat_map(|y| (0..n).map(move |x| y * (n + 1) + x))
+        .flat_map(|a| [[a, a + 1, a + n + 1], [a + n + 2, a + n + 1, a + 1]])
+        .collect();
+    Mesh { positions, triangles }
+}
+
+fn build(mesh: &Mesh, settings: SceneSettings) -> EmbreeScene<'_> {
+    EmbreeScene::new(Device::new(1).unwrap(), mesh, settings).unwrap()
+}
+
+fn down(x: f32, y: f32) -> Ray {
+    Ray::new(Vec3::new(x, y, 3.0), Vec3::new(0.0, 0.0, -2.0))
+}
+
+fn all_settings() -> impl Iterator<Item = SceneSettings> {
+    [Quality::Low, Quality::Medium, Quality::High].into_iter().flat_map(|quality| {
+        [(false, false), (true, false), (false, true), (true, true)].map(|(robust, compact)| SceneSettings {
+            quality,
+            robust,
+            compact,
+        })
+    })
+}
+
+#[test]
+fn every_kind_of_scene_finds_what_is_there() {
+    let mesh = sheet(8);
+    for settings in all_settings() {
+        let scene = build(&mesh, settings);
+        for square in 0..64_u32 {
+            let (x, y) = ((square % 8) as f32, (square / 8) as f32);
+            let hit = scene.closest(&down(x + 0.25, y + 0.25)).unwrap();
+            assert_eq!((hit.object, hit.t), (2 * square, 1.0), "{settings:?}");
+            assert!((hit.u - 0.25).abs() < 1e-6 && (hit.v - 0.25).abs() < 1e-6);
+            assert!(scene.occluded(&down(x + 0.25, y + 0.25)));
+        }
+        assert_eq!(scene.closest(&down(-0.5, 2.0)), None);
+        assert!(!scene.occluded(&down(-0.5, 2.0)));
+        let short = Ray { t_max: 0.9, ..down(2.3, 2.3) };
+        assert_eq!(scene.closest(&short), None);
+        assert!(!scene.occluded(&short));
+    }
+}
+
+#[test]
+fn packets_answer_as_single_rays_do() {
+    let mesh = sheet(8);
+    let scene = build(&mesh, SceneSettings { robust: true, ..SceneSettings::default() });
+    for count in [0, 1, 7, 15, 16] {
+        let rays: Vec<Ray> = (0..count).map(|i| down(i as f32 * 0.61 - 0.5, 1.3)).collect();
+        let mut hits = vec![None; count];
+        let mut occluded = vec![false; count];
+        scene.closest16(&rays, &mut hits);
+        scene.occluded16(&rays, &mut occluded);
+        for (i, ray) in rays.iter().enumerate() {
+            let single = scene.closest(ray);
+            assert_eq!(hits[i].map(|h| (h.object, h.t)), single.map(|h| (h.object, h.t)));
+            assert_eq!(occluded[i], single.is_some());
+        }
+    }
+}
+
+#[test]
+#[should_panic(expected = "a packet holds 16 rays")]
+fn a_packet_of_17_is_refused() {
+    let mesh = sheet(1);
+    let scene = build(&mesh, SceneSettings::default());
+    scene.closest16(&[down(0.2, 0.2); 17], &mut [None; 17]);
+}
+
+/// The words behind a struct that Embree is given.
+#[repr(C)]
+struct Guarded<T> {
+    inner: T,
+    guard: [u32; 16],
+}
+
+const GUARD: [u32; 16] = [0x5afe_c0de; 16];
+
+#[test]
+fn embree_writes_nothing_behind_its_structs() {
+    let mesh = sheet(4);
+    let scene = build(&mesh, SceneSettings::default());
+    let arguments = &raw const SINGLE_RAYS;
+    let ray = single(&down(1.2, 1.2));
+
+    let mut one = Guarded { inner: RayHit1::new(ray), guard: GUARD };
+    // A value that Embree must overwrite on a hit if it knows the field.
+    one.inner.hit.inst_prim = [7];
+    // SAFETY: a committed scene and a ray-hit of the right layout inside a bigger struct.
+    unsafe { sys::rtcIntersect1(scene.handle(), &raw mut one.inner, arguments) };
+    assert_eq!(one.inner.hit.prim, 2 * (4 + 1));
+    assert_eq!(one.guard, GUARD);
+    let (_, minor, _) = scene.version();
+    assert_eq!(one.inner.hit.inst_prim[0] != 7, minor >= 3, "instPrimID came with 4.3");
+
+    let mut shadow = Guarded { inner: ray, guard: GUARD };
+    // SAFETY: as above.
+    unsafe { sys::rtcOccluded1(scene.handle(), &raw mut shadow.inner, arguments) };
+    assert_eq!(shadow.inner.tfar, f32::NEG_INFINITY);
+    assert_eq!(shadow.guard, GUARD);
+
+    let valid = Valid16::first(16);
+    let mut many = Guarded { inner: packet(&[down(1.2, 1.2); 16]), guard: GUARD };
+    // SAFETY: as above, with an aligned mask.
+    unsafe { sys::rtcIntersect16(&raw const valid, scene.handle(), &raw mut many.inner, arguments) };
+    assert_eq!(many.inner.hit.prim, [10; 16]);
+    assert_eq!(many.guard, GUARD);
+
+    let mut shadows: Guarded<Ray16> = Guarded { inner: packet(&[down(1.2, 1.2); 16]).ray, guard: GUARD };
+    // SAFETY: as above.
+    unsafe { sys::rtcOccluded16(&raw const valid, scene.handle(), &raw mut shadows.inner, arguments) };
+    assert_eq!(shadows.inner.tfar, [f32::NEG_INFINITY; 16]);
+    assert_eq!(shadows.guard, GUARD);
+}
+
+#[test]
+fn memory_is_counted_and_compact_takes_less() {
+    let mesh = sheet(100);
+    let plain = build(&mesh, SceneSettings::default());
+    let compact = build(&mesh, SceneSettings { compact: true, ..SceneSettings::default() });
+    let triangles = mesh.triangles.len() as u64;
+    let use_ = plain.memory();
+    assert!(use_.now > 20 * triangles && use_.now < 200 * triangles, "{use_:?}");
+    assert!(use_.peak >= use_.now);
+    assert!(compact.memory().now < use_.now);
+}
+
+#[test]
+fn positions_are_shared_where_there_is_room_behind_them() {
+    let mut mesh = sheet(3);
+    mesh.positions.shrink_to_fit();
+    let bytes = (mesh.positions.len() + 1) * size_of::<Vec3>();
+    assert_eq!(build(&mesh, SceneSettings::default()).copied_bytes(), bytes);
+    mesh.positions.reserve_exact(1);
+    let scene = build(&mesh, SceneSettings { compact: true, ..SceneSettings::default() });
+    assert_eq!(scene.copied_bytes(), 0);
+    assert_eq!(scene.closest(&down(2.25, 2.25)).map(|h| h.object), Some(16));
+}
+
+#[test]
+fn an_empty_scene_is_never_hit() {
+    let mesh = Mesh::default();
+    let scene = build(&mesh, SceneSettings::default());
+    assert_eq!(scene.closest(&down(0.0, 0.0)), None);
+    assert!(!scene.occluded(&down(0.0, 0.0)));
+}
+
+#[test]
+fn an_index_out_of_range_is_refused_before_embree_reads_it() {
+    let mut mesh = sheet(1);
+    mesh.triangles.push([0, 4, 1]);
+    let error = EmbreeScene::new(Device::new(1).unwrap(), &mesh, SceneSettings::default()).err();
+    assert_eq!(error, Some(EmbreeError::Index { triangle: 2, position: 4, positions: 4 }));
+}

@@ -1,0 +1,9 @@
+//! Lets the binary find Embree when it is called directly.
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    // Set by the build script of adapter-embree; absent without the feature `embree`.
+    if let Ok(dir) = std::env::var("DEP_EMBREE4_LIBDIR") {
+        println!("cargo::rustc-link-arg=-Wl,-rpath,{dir}");
+    }
+}

@@ -1,0 +1,122 @@
+//! `cargo xtask test`: every check of the workspace, stopping at the first that fails.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Command, ExitCode, Stdio};
+
+use crate::places::Places;
+use crate::setup::Ready;
+use crate::shell::{cargo, output};
+use crate::tally::Tally;
+
+/// What must build and pass on a machine without Embree or any C++.
+const CORE: [&str; 3] = ["rayscale-accel", "bmssm", "rayscale-ssm"];
+
+/// The package that links with Embree.
+const ADAPTER: &str = "rayscale-adapter-embree";
+
+type Step<'a> = (&'a str, &'a dyn Fn(&mut Tally) -> Result<(), String>);
+
+/// Runs the steps and prints how many tests passed and failed as the last line.
+pub fn run(places: &Places, ready: &Ready) -> ExitCode {
+    let here = |verb: &str| {
+        let mut command = cargo();
+        command.current_dir(&places.root).arg(verb);
+        command
+    };
+    let workspace = |verb: &str| {
+        let mut command = here(verb);
+        command.arg("--workspace");
+        if !ready.embree {
+            command.args(["--no-default-features", "--exclude", ADAPTER]);
+        }
+        command
+    };
+    let steps: [Step; 6] = [
+        ("formatting", &|_| succeed(here("fmt").args(["--all", "--check"]))),
+        ("lints", &|_| {
+            let mut command = workspace("clippy");
+            succeed(command.args(["--all-targets", "--", "-D", "warnings"]))
+        }),
+        ("accel, bmssm and ssm know no Embree", &|_| {
+            let mut command = here("tree");
+            command.args(["--prefix", "none", "--edges", "all"]);
+            no_embree_in(&output(command.args(CORE.map(|p| format!("-p{p}"))))?)
+        }),
+        ("tests of accel, bmssm and ssm alone", &|tally| {
+            let mut command = here("test");
+            tests(command.args(CORE.map(|p| format!("-p{p}"))), tally)
+        }),
+        // The core's tests have just run; with the rest they are what `cargo test --workspace` runs.
+        ("tests of the other packages", &|tally| {
+            let mut command = workspace("test");
+            tests(command.args(CORE.map(|p| format!("--exclude={p}"))), tally)
+        }),
+        ("documentation", &|_| {
+            let mut command = workspace("doc");
+            succeed(command.arg("--no-deps").env("RUSTDOCFLAGS", "-D warnings"))
+        }),
+    ];
+    let mut tally = Tally::default();
+    let mut code = ExitCode::SUCCESS;
+    for (name, step) in steps {
+        println!("== {name}");
+        if let Err(why) = step(&mut tally) {
+            eprintln!("xtask: step failed: {name}: {why}");
+            code = ExitCode::FAILURE;
+            break;
+        }
+    }
+    if !ready.embree {
+        println!("Embree was skipped: {}", places.embree_missing().display());
+    }
+    println!("{} passed, {} failed", tally.passed, tally.failed);
+    code
+}
+
+fn succeed(command: &mut Command) -> Result<(), String> {
+    let status = command.status().map_err(|e| format!("cargo cannot be run: {e}"))?;
+    if status.success() { Ok(()) } else { Err(status.to_string()) }
+}
+
+/// Runs `cargo test`, showing its output and counting its results.
+fn tests(command: &mut Command, tally: &mut Tally) -> Result<(), String> {
+    let mut child = command
+        .arg("--no-fail-fast")
+        .stdout(Stdio::piped())
+        .spawn()
+        .map_err(|e| format!("cargo cannot be run: {e}"))?;
+    if let Some(stdout) = child.stdout.take() {
+        for line in BufReader::new(stdout).split(b'\n') {
+            let line = line.map_err(|e| format!("cannot read from cargo: {e}"))?;
+            let line = String::from_utf8_lossy(&line);
+            println!("{line}");
+            tally.read(&line);
+        }
+    }
+    let status = child.wait().map_err(|e| e.to_string())?;
+    if status.success() { Ok(()) } else { Err(status.to_string()) }
+}
+
+fn no_embree_in(tree: &str) -> Result<(), String> {
+    let foreign = ["embree", "clang-sys", "bindgen"];
+    let found = tree
+        .lines()
+        .filter_map(|line| line.split_whitespace().next())
+        .find(|package| foreign.iter().any(|name| package.contains(name)));
+    match found {
+        Some(package) => Err(format!("they depend on {package}")),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::no_embree_in;
+
+    #[test]
+    fn a_tree_with_embree_in_it_is_refused() {
+        no_embree_in("bmssm v0.1.0\nglam v0.34.0\n").unwrap();
+        let error = no_embree_in("bmssm v0.1.0\nrayscale-adapter-embree v0.1.0 (/x)\n");
+        assert!(error.unwrap_err().contains("rayscale-adapter-embree"));
+    }
+}

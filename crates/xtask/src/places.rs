@@ -1,0 +1,67 @@
+//! Where things lie inside the checkout.
+
+use std::path::{Path, PathBuf};
+
+/// The checkout and the folder `.setup` in it, which git ignores.
+pub struct Places {
+    /// Folder of the workspace's `Cargo.toml`.
+    pub root: PathBuf,
+    /// Everything that set-up writes.
+    pub setup: PathBuf,
+}
+
+impl Places {
+    /// The checkout that `cargo xtask` was called in.
+    pub fn of_this_checkout() -> Self {
+        // The value at run time follows a checkout that was moved after xtask was compiled.
+        let package =
+            std::env::var("CARGO_MANIFEST_DIR").unwrap_or_else(|_| env!("CARGO_MANIFEST_DIR").to_owned());
+        let package = PathBuf::from(package);
+        let root = package.ancestors().nth(2).map_or_else(|| package.clone(), Path::to_path_buf);
+        let setup = root.join(".setup");
+        Self { root, setup }
+    }
+
+    /// `lib=DIR` and `source=TEXT` of the Embree that the workspace is linked with.
+    pub fn embree_record(&self) -> PathBuf {
+        self.setup.join("embree.txt")
+    }
+
+    /// Why there is no Embree; absent when there is one.
+    pub fn embree_missing(&self) -> PathBuf {
+        self.setup.join("embree-missing.txt")
+    }
+
+    /// The fetched meshes and their `status.txt`.
+    pub fn meshes(&self) -> PathBuf {
+        self.setup.join("meshes")
+    }
+
+    /// An empty folder for downloads under way.
+    pub fn scratch(&self, name: &str) -> Result<PathBuf, String> {
+        let dir = self.setup.join("scratch").join(name);
+        if dir.exists() {
+            std::fs::remove_dir_all(&dir).map_err(|e| format!("cannot empty {}: {e}", dir.display()))?;
+        }
+        std::fs::create_dir_all(&dir).map_err(|e| format!("cannot create {}: {e}", dir.display()))?;
+        Ok(dir)
+    }
+}
+
+/// Writes a file whole or not at all.
+pub fn write(path: &Path, text: &str) -> Result<(), String> {
+    let part = path.with_extension("part");
+    std::fs::write(&part, text)
+        .and_then(|()| std::fs::rename(&part, path))
+        .map_err(|e| format!("cannot write {}: {e}", path.display()))
+}
+
+/// Removes a file that may not be there.
+pub fn remove(path: &Path) -> Result<(), String> {
+    match std::fs::remove_file(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+            Err(format!("cannot remove {}: {e}", path.display()))
+        }
+        _ => Ok(()),
+    }
+}
