@@ -7,7 +7,10 @@ pub mod denormals;
 pub mod device;
 pub mod rayhit;
 pub mod scene;
+mod structure;
 pub mod sys;
 
-pub use device::{Device, EmbreeError, MemoryUse};
+pub use denormals::Denormals;
+pub use device::{Device, EmbreeError, MemoryUse, version};
 pub use scene::{EmbreeScene, Quality, SceneSettings};
+pub use structure::{EmbreeBuilder, Variant};

@@ -38,7 +38,9 @@ fn every_kind_of_scene_finds_what_is_there() {
         for square in 0..64_u32 {
             let (x, y) = ((square % 8) as f32, (square / 8) as f32);
             let hit = scene.closest(&down(x + 0.25, y + 0.25)).unwrap();
-            assert_eq!((hit.object, hit.t), (2 * square, 1.0), "{settings:?}");
+            assert_eq!(hit.object, 2 * square, "{settings:?}");
+            // How Embree divides depends on the instruction set it chooses.
+            assert!((hit.t - 1.0).abs() < 1e-6, "{settings:?}: {}", hit.t);
             assert!((hit.u - 0.25).abs() < 1e-6 && (hit.v - 0.25).abs() < 1e-6);
             assert!(scene.occluded(&down(x + 0.25, y + 0.25)));
         }

@@ -1,0 +1,147 @@
+use super::*;
+use accel::baseline::Brute;
+use accel::{Aabb, KernelId, Mesh, Projection, Vec3, View};
+
+/// Numbers in [0, 1) from a fixed seed.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1 << 24) as f32
+    }
+
+    fn vec3(&mut self) -> Vec3 {
+        Vec3::new(self.next(), self.next(), self.next())
+    }
+}
+
+fn scene_of(geometry: Geometry) -> Scene {
+    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
+    Scene { id: "test".to_owned(), geometry, view }
+}
+
+fn small_triangles(count: u32) -> Scene {
+    let mut numbers = Numbers(1);
+    let mut mesh = Mesh::default();
+    for i in 0..count {
+        let base = numbers.vec3();
+        for _ in 0..3 {
+            mesh.positions.push(base + numbers.vec3() * 0.1);
+        }
+        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    scene_of(Geometry::Triangles(mesh))
+}
+
+fn raster(rows: u32, cols: u32) -> Raster {
+    Raster {
+        projection: Projection::Parallel,
+        rows,
+        cols,
+        origin: Vec3::new(-0.05, -0.05, 2.0),
+        forward: Vec3::new(0.01, 0.02, -1.0),
+        right: Vec3::X * (1.2 / cols as f32),
+        down: Vec3::Y * (1.2 / rows as f32),
+    }
+}
+
+fn list(count: usize) -> RaySet {
+    let mut numbers = Numbers(2);
+    let ray = |_| Ray::new(numbers.vec3(), numbers.vec3() - Vec3::splat(0.5));
+    RaySet::List((0..count).map(ray).collect())
+}
+
+fn hits_of(builder: &dyn Builder, scene: &Scene, rays: &RaySet) -> (Vec<Option<Hit>>, Vec<bool>) {
+    let built = builder.build(scene, &Need::of(rays)).unwrap();
+    let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+    built.trace(rays, &mut hits);
+    built.trace_occluded(rays, &mut occluded);
+    (hits, occluded)
+}
+
+/// Embree brings its own kernel, so a few rays near edges may differ from brute force.
+fn nearly_all_as_brute_force(builder: &EmbreeBuilder, scene: &Scene, rays: &RaySet) {
+    let (wanted, _) = hits_of(&Brute::new(KernelId::MollerTrumbore), scene, rays);
+    let (hits, occluded) = hits_of(builder, scene, rays);
+    let hit_count = wanted.iter().flatten().count();
+    assert!(hit_count > rays.len() / 20, "{hit_count} of {} rays hit", rays.len());
+    let mut differences = 0;
+    for ((hit, occluded), wanted) in hits.iter().zip(&occluded).zip(&wanted) {
+        assert_eq!(*occluded, hit.is_some(), "{builder:?}");
+        match (hit, wanted) {
+            (Some(hit), Some(wanted)) if hit.object == wanted.object => {
+                assert!((hit.t - wanted.t).abs() <= 1e-4 * wanted.t.abs().max(1.0), "{hit:?} {wanted:?}");
+                assert!((hit.u - wanted.u).abs() < 1e-2 && (hit.v - wanted.v).abs() < 1e-2);
+            }
+            (None, None) => {}
+            _ => differences += 1,
+        }
+    }
+    assert!(differences * 1000 <= rays.len(), "{differences} differences by {builder:?}");
+}
+
+#[test]
+fn all_variants_agree_with_brute_force_on_rasters_of_odd_sizes() {
+    let scene = small_triangles(500);
+    for (rows, cols) in [(64, 64), (33, 61), (1, 50), (50, 1), (3, 2)] {
+        let rays = RaySet::Raster(raster(rows, cols));
+        for variant in Variant::ALL {
+            for denormals in [Denormals::Keep, Denormals::Flush] {
+                let builder = EmbreeBuilder { denormals, ..EmbreeBuilder::new(variant) };
+                if rows * cols > 1000 {
+                    nearly_all_as_brute_force(&builder, &scene, &rays);
+                } else {
+                    assert_eq!(hits_of(&builder, &scene, &rays).0.len(), rays.len());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn packets_put_every_hit_in_its_place() {
+    let scene = small_triangles(500);
+    let rays = RaySet::Raster(raster(37, 53));
+    let (single, _) = hits_of(&EmbreeBuilder::new(Variant::Plain), &scene, &rays);
+    let (packets, _) = hits_of(&EmbreeBuilder::new(Variant::Packet), &scene, &rays);
+    let objects = |hits: &[Option<Hit>]| hits.iter().map(|h| h.map(|h| h.object)).collect::<Vec<_>>();
+    let (single, packets) = (objects(&single), objects(&packets));
+    let differences = single.iter().zip(&packets).filter(|(a, b)| a != b).count();
+    assert!(differences <= 2, "{differences} differences");
+}
+
+#[test]
+fn single_ray_variants_agree_with_brute_force_on_lists() {
+    let scene = small_triangles(500);
+    let rays = list(3001);
+    for variant in [Variant::Plain, Variant::Robust, Variant::Compact] {
+        for quality in [Quality::Low, Quality::Medium, Quality::High] {
+            let builder = EmbreeBuilder { quality, ..EmbreeBuilder::new(variant) };
+            nearly_all_as_brute_force(&builder, &scene, &rays);
+        }
+    }
+    let flush = EmbreeBuilder { denormals: Denormals::Flush, ..EmbreeBuilder::new(Variant::Plain) };
+    nearly_all_as_brute_force(&flush, &scene, &rays);
+}
+
+#[test]
+fn what_embree_does_not_serve_is_refused_with_a_reason() {
+    let boxes = scene_of(Geometry::Boxes(vec![Aabb { min: Vec3::ZERO, max: Vec3::ONE }]));
+    let error = EmbreeBuilder::new(Variant::Plain).build(&boxes, &Need::GENERAL).err();
+    assert_eq!(error.unwrap().to_string(), "embree does not serve boxes: Embree has triangles");
+    let triangles = small_triangles(1);
+    let error = EmbreeBuilder::new(Variant::Packet).build(&triangles, &Need::GENERAL).err();
+    assert!(error.unwrap().to_string().contains("coherent packets are for rasters"));
+}
+
+#[test]
+fn the_footprint_is_the_monitor_s_and_the_plan_names_the_version() {
+    let scene = small_triangles(2000);
+    let builder = EmbreeBuilder::new(Variant::Plain);
+    assert_eq!((builder.id(), builder.settings().as_str()), ("embree", "quality=medium denormals=keep"));
+    let built = builder.build(&scene, &Need::GENERAL).unwrap();
+    let bytes = built.footprint().total();
+    assert!(bytes > 2000 * 20 && bytes < 2000 * 400, "{bytes}");
+    assert!(built.plan().starts_with("Embree 4."), "{}", built.plan());
+}
