@@ -2,4 +2,8 @@
 
 #![forbid(unsafe_code)]
 
+pub mod cmd;
+pub mod near;
+pub mod output;
 pub mod scene;
+pub mod units;

@@ -1,3 +1,7 @@
 //! The command line of the suite.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    rayscale::cmd::main()
+}

@@ -1,0 +1,91 @@
+//! What can go wrong at the command line: what, where, and what to do about it.
+
+use crate::near::near;
+use crate::scene::SceneError;
+use accel::BuildError;
+use std::fmt::Display;
+use std::io;
+
+/// Bad usage or input. All end with exit code 2.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A name that nothing has.
+    #[error("there is no {kind} `{name}`")]
+    Unknown {
+        /// What was named: a structure, a kernel, …
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// Names that resemble it.
+        near: Vec<String>,
+        /// All names.
+        all: Vec<String>,
+    },
+    /// Input or options that can't be used.
+    #[error("{what}")]
+    Usage {
+        /// What is wrong, and where.
+        what: String,
+        /// What to do.
+        todo: String,
+    },
+    /// A file or stream that can't be read or written.
+    #[error("{place}: {source}")]
+    Io {
+        /// Which.
+        place: String,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A structure that can't be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A scene that can't be had.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+impl Error {
+    /// Bad usage or input.
+    pub fn usage(what: impl Into<String>, todo: impl Into<String>) -> Self {
+        Self::Usage { what: what.into(), todo: todo.into() }
+    }
+
+    /// A file or stream that can't be read or written.
+    pub fn io(place: impl Display, source: io::Error) -> Self {
+        Self::Io { place: place.to_string(), source }
+    }
+
+    /// A name that is none of `names`.
+    pub fn unknown<'n>(
+        kind: &'static str,
+        name: &str,
+        names: impl IntoIterator<Item = &'n str> + Clone,
+    ) -> Self {
+        let all = names.clone().into_iter().map(str::to_owned).collect();
+        Self::Unknown { kind, name: name.to_owned(), near: near(name, names), all }
+    }
+
+    /// What to do about it, where there is something to do.
+    pub fn todo(&self) -> Option<String> {
+        match self {
+            Self::Unknown { near, all, .. } if near.is_empty() => {
+                Some(format!("choose one of {}", list(all)))
+            }
+            Self::Unknown { near, .. } => Some(format!("did you mean {}?", list(near))),
+            Self::Usage { todo, .. } => Some(todo.clone()),
+            Self::Build(BuildError::Unsupported { .. }) => Some("choose another structure".into()),
+            Self::Scene(error) => error.hint().map(str::to_owned),
+            Self::Io { .. } | Self::Build(_) => None,
+        }
+    }
+
+    /// Whether the reader of the output has gone away, which is no fault.
+    pub fn is_closed_pipe(&self) -> bool {
+        matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+fn list(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,71 @@
+//! Times, bytes and counts for people; files hold them raw.
+
+/// `12.3 ns`, `4.56 ms`, `1.20 s`: three digits that count.
+pub fn time(ns: f64) -> String {
+    scaled(ns, 1000.0, &["ns", "µs", "ms", "s"])
+}
+
+/// `512 B`, `4.10 MiB`: three digits that count.
+pub fn bytes(bytes: u64) -> String {
+    if bytes < 1024 {
+        return format!("{bytes} B");
+    }
+    scaled(bytes as f64, 1024.0, &["B", "KiB", "MiB", "GiB", "TiB"])
+}
+
+/// `66,450`
+pub fn count(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+fn scaled(mut value: f64, step: f64, units: &[&str]) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let mut unit = 0;
+    // Rounding to three digits must not print 1000 of a unit that has a next one.
+    while value.abs() >= step - 0.5 && unit + 1 < units.len() {
+        value /= step;
+        unit += 1;
+    }
+    let digits = match value.abs() {
+        v if v >= 99.95 => 0,
+        v if v >= 9.995 => 1,
+        _ => 2,
+    };
+    format!("{value:.digits$} {}", units[unit])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_digits_that_count() {
+        for (ns, text) in [
+            (0.0, "0.00 ns"),
+            (12.34, "12.3 ns"),
+            (999.4, "999 ns"),
+            (999.7, "1.00 µs"),
+            (1.5e6, "1.50 ms"),
+            (61e9, "61.0 s"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(time(ns), text);
+        }
+        for (n, text) in [(0, "0 B"), (1023, "1023 B"), (4 << 20, "4.00 MiB"), ((1 << 30) - 1, "1.00 GiB")] {
+            assert_eq!(bytes(n), text);
+        }
+        assert_eq!(count(66_450), "66,450");
+        assert_eq!(count(7), "7");
+        assert_eq!(count(1_234_567), "1,234,567");
+    }
+}

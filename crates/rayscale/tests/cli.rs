@@ -1,0 +1,31 @@
+//! The command line as a user meets it.
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+
+fn rayscale(arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("rayscale").expect("the binary of this package");
+    command.args(arguments);
+    command
+}
+
+#[test]
+fn without_arguments_it_says_what_to_do() {
+    rayscale(&[]).assert().success().stdout(predicate::str::contains("rayscale help VERB"));
+    let out = rayscale(&["--json"]).assert().success().get_output().stdout.clone();
+    let json: serde_json::Value = serde_json::from_slice(&out).expect("JSON");
+    assert!(json["verbs"].as_array().is_some_and(|verbs| !verbs.is_empty()));
+}
+
+#[test]
+fn bad_usage_ends_with_2() {
+    rayscale(&["completion"]).assert().code(2).stderr(predicate::str::contains("completions"));
+    rayscale(&["--threads", "0"]).assert().code(2);
+}
+
+#[test]
+fn completions_know_the_verbs() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        rayscale(&["completions", shell]).assert().success().stdout(predicate::str::contains("completions"));
+    }
+}
