@@ -3,4 +3,5 @@
 //! instead of a list of objects for each cell. Stands behind `accel::Accel`.
 #![forbid(unsafe_code)]
 
+pub mod dense;
 pub mod image_space;

@@ -1,0 +1,129 @@
+//! `bmssm-dense`: the paper as it stands (Skala 1993, §2, §4, §5 and appendix), plain bit vectors for each
+//! slice.
+//!
+//! The primary rays of a raster take the maps of its rows and columns ([`ImageMaps`]), all other rays
+//! those of slices along x, y and z ([`SpaceMaps`]) and a walk from cell to cell. Only what the
+//! need names is built.
+
+mod axis;
+mod detail;
+mod image;
+mod resolution;
+mod settings;
+mod space;
+mod trace;
+
+pub use axis::Axis;
+pub use image::{Coverage, ImageMaps};
+pub use resolution::Resolution;
+pub use settings::{Loop, Settings};
+pub use space::SpaceMaps;
+
+use accel::grid::Grid;
+use accel::{Accel, BuildError, Builder, Need, Objects, Scene, WithObjects};
+use detail::{Appendix, Detail, Words};
+use trace::Built;
+
+const ID: &str = "bmssm-dense";
+
+/// Builds `bmssm-dense`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BmssmDense {
+    /// The settings.
+    pub settings: Settings,
+}
+
+impl BmssmDense {
+    /// Changes one setting, see [`Settings::NAMES`].
+    ///
+    /// # Errors
+    /// [`BuildError::Setting`] if there is no such setting or the value makes no sense.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), BuildError> {
+        self.settings.set(name, value).map_err(|problem| setting(name, problem))
+    }
+}
+
+impl Builder for BmssmDense {
+    fn id(&self) -> &str {
+        ID
+    }
+
+    fn settings(&self) -> String {
+        self.settings.to_string()
+    }
+
+    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        scene.with_objects(self.settings.kernel, Build(self.settings, *need))
+    }
+}
+
+struct Build(Settings, Need);
+
+impl<'s> WithObjects<'s> for Build {
+    type Out = Result<Box<dyn Accel + 's>, BuildError>;
+
+    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+        let Self(settings, need) = self;
+        let order: Vec<u32> = (0..objects.len() as u32).collect();
+        match settings.walk {
+            Loop::Appendix => build(objects, |o| Appendix(*o), &settings, &need),
+            Loop::Words => build(objects, |o| Words(o.blocks(&order)), &settings, &need),
+        }
+    }
+}
+
+fn build<'s, O: Objects + 's, D: Detail + 's>(
+    objects: O,
+    detail: impl FnOnce(&O) -> D,
+    settings: &Settings,
+    need: &Need,
+) -> Result<Box<dyn Accel + 's>, BuildError> {
+    settings.resolution.check().map_err(|problem| setting("resolution", problem))?;
+    let grid = (need.general && !objects.is_empty())
+        .then(|| {
+            let bounds = space::bounds_of(&objects);
+            Grid::new(bounds, settings.resolution.slices(&objects, &bounds))
+        })
+        .transpose()
+        .map_err(|error| setting("resolution", error.to_string()))?;
+    let bytes = need.raster.map_or(0, |raster| ImageMaps::bytes_of(&raster, objects.len()))
+        + grid.map_or(0, |grid| SpaceMaps::bytes_of(grid.resolution(), objects.len()));
+    let limit = settings.memory.unwrap_or_else(accel::available_memory);
+    if bytes > limit {
+        return Err(BuildError::TooLarge { structure: ID.into(), bytes, limit });
+    }
+    let image = need.raster.map(|raster| ImageMaps::new(&objects, raster));
+    let space = grid.map(|grid| SpaceMaps::new(&objects, grid));
+    Ok(Box::new(Built {
+        detail: detail(&objects),
+        objects: objects.len(),
+        simd: settings.simd,
+        mailbox: settings.mailbox,
+        general: need.general,
+        plan: plan(image.as_ref(), space.as_ref()),
+        image,
+        space,
+    }))
+}
+
+fn plan(image: Option<&ImageMaps>, space: Option<&SpaceMaps>) -> String {
+    let mut lines = Vec::new();
+    if let Some(maps) = image {
+        let unseen = maps.coverage().unseen().len();
+        lines.push(format!(
+            "{} rows + {} columns; {unseen} of {} objects can't be hit by any ray of the image",
+            maps.rows.len(),
+            maps.cols.len(),
+            maps.rows.objects()
+        ));
+    }
+    if let Some(maps) = space {
+        let [x, y, z] = maps.grid.resolution();
+        lines.push(format!("{x} × {y} × {z} slices"));
+    }
+    lines.join("\n")
+}
+
+fn setting(name: &str, problem: String) -> BuildError {
+    BuildError::Setting { structure: ID.into(), setting: name.into(), problem }
+}

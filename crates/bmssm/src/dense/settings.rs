@@ -1,0 +1,147 @@
+//! What `bmssm-dense` can be told.
+
+use super::Resolution;
+use accel::KernelId;
+use accel::simd::Level;
+use std::fmt;
+
+/// How the bits of a word are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loop {
+    /// 32-bit words, bit by bit, each object tested by itself: the loop of the paper's appendix.
+    Appendix,
+    /// 64-bit words by find-first-set, handed to objects packed in blocks.
+    Words,
+}
+
+/// Settings of `bmssm-dense`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The ray-triangle test.
+    pub kernel: KernelId,
+    /// The instruction set.
+    pub simd: Level,
+    /// Slices along x, y and z for general rays.
+    pub resolution: Resolution,
+    /// How the bits of a word are taken.
+    pub walk: Loop,
+    /// Whether a general ray passes over objects it tested in an earlier cell.
+    pub mailbox: bool,
+    /// Most bytes the maps may take; `None` for what the machine has to give.
+    pub memory: Option<u128>,
+}
+
+impl Default for Settings {
+    /// The paper's method by 64-bit words, N from the scene.
+    fn default() -> Self {
+        Self {
+            kernel: KernelId::MollerTrumbore,
+            simd: Level::best(),
+            resolution: Resolution::Auto,
+            walk: Loop::Words,
+            mailbox: false,
+            memory: None,
+        }
+    }
+}
+
+impl Settings {
+    /// Names and meanings, for help texts.
+    pub const NAMES: [(&str, &str); 6] = [
+        ("kernel", "ray-triangle test"),
+        ("simd", "instruction set"),
+        ("resolution", "slices per axis: auto, 64, or 64x32x16"),
+        ("loop", "words (64 bits, find-first-set) or appendix (32 bits, bit by bit)"),
+        ("mailbox", "on: test no object twice for a ray; off: as in the paper"),
+        ("memory", "most bytes the maps may take"),
+    ];
+
+    /// Changes one setting.
+    ///
+    /// # Errors
+    /// Says what is wrong.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
+        match name {
+            "kernel" => {
+                self.kernel = KernelId::from_id(value)
+                    .ok_or_else(|| none_of(value, KernelId::ALL.map(KernelId::id)))?;
+            }
+            "simd" => {
+                let level = Level::from_id(value).filter(|level| level.available());
+                self.simd = level.ok_or_else(|| none_of(value, Level::here().map(Level::id)))?;
+            }
+            "resolution" => self.resolution = Resolution::parse(value)?,
+            "loop" => {
+                let known = [Loop::Appendix, Loop::Words].into_iter().find(|walk| walk.id() == value);
+                self.walk = known.ok_or_else(|| none_of(value, ["appendix", "words"]))?;
+            }
+            "mailbox" => {
+                self.mailbox = match value {
+                    "on" => true,
+                    "off" => false,
+                    _ => return Err(none_of(value, ["on", "off"])),
+                }
+            }
+            "memory" => {
+                let bytes = value.parse().map_err(|_| format!("'{value}' is not a number of bytes"))?;
+                self.memory = Some(bytes);
+            }
+            _ => return Err(none_of(name, Self::NAMES.map(|(name, _)| name))),
+        }
+        Ok(())
+    }
+}
+
+impl Loop {
+    /// Name as used in settings and records.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Appendix => "appendix",
+            Self::Words => "words",
+        }
+    }
+}
+
+impl fmt::Display for Settings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { kernel, simd, resolution, walk, mailbox, memory } = self;
+        let mailbox = if *mailbox { "on" } else { "off" };
+        write!(
+            f,
+            "kernel={kernel} simd={} resolution={resolution} loop={} mailbox={mailbox}",
+            simd.id(),
+            walk.id()
+        )?;
+        memory.map_or(Ok(()), |bytes| write!(f, " memory={bytes}"))
+    }
+}
+
+fn none_of<'a>(value: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<_> = known.into_iter().collect();
+    format!("'{value}' is none of {}", known.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_setting_is_read_as_it_is_written() {
+        let mut settings = Settings::default();
+        let text = "kernel=watertight simd=portable resolution=64x32x16 loop=appendix mailbox=on memory=123";
+        for (name, value) in text.split(' ').map(|pair| pair.split_once('=').unwrap()) {
+            settings.set(name, value).unwrap();
+        }
+        assert_eq!(settings.to_string(), text);
+    }
+
+    #[test]
+    fn nonsense_is_refused_by_name() {
+        for (name, _) in Settings::NAMES {
+            let problem = Settings::default().set(name, "?").unwrap_err();
+            assert!(problem.contains("'?'"), "{name}: {problem}");
+        }
+        assert!(Settings::default().set("colour", "red").unwrap_err().contains("resolution"));
+        assert!(Settings::default().set("resolution", "0").is_err());
+    }
+}

@@ -1,0 +1,98 @@
+//! Maps of space: R, S and T for slices along x, y and z (Skala 1993, §5).
+
+use super::Axis;
+use accel::grid::Grid;
+use accel::{Aabb, Objects};
+
+/// The bit maps of a grid: ⁱR & ʲS & ᵏT are the candidates of cell (i, j, k).
+#[derive(Clone, Debug)]
+pub struct SpaceMaps {
+    /// The slices; its bounds hold all objects' boxes.
+    pub grid: Grid,
+    /// R, S and T.
+    pub axes: [Axis; 3],
+}
+
+impl SpaceMaps {
+    /// Maps the boxes of `objects`, which must lie in the grid's bounds.
+    pub fn new<O: Objects>(objects: &O, grid: Grid) -> Self {
+        let mut axes = grid.resolution().map(|n| Axis::new(n as usize, objects.len()));
+        for id in 0..objects.len() as u32 {
+            let bounds = objects.bounds(id);
+            for (axis, maps) in axes.iter_mut().enumerate() {
+                maps.touch(grid.slices(axis, &bounds), id);
+            }
+        }
+        Self { grid, axes }
+    }
+
+    /// Bytes of the maps of so many objects: M_BMSSM.
+    pub fn bytes_of(resolution: [u32; 3], objects: usize) -> u128 {
+        resolution.map(|n| Axis::bytes_of(n as usize, objects)).iter().sum()
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.axes.iter().map(Axis::bytes).sum()
+    }
+
+    /// The maps of the three slices that meet in a cell.
+    #[inline]
+    pub fn cell(&self, slice: [u32; 3]) -> [&[u64]; 3] {
+        [0, 1, 2].map(|axis| self.axes[axis].slice(slice[axis]))
+    }
+
+    /// Sum of the candidates of all cells, counting each object by the slices it touches: q·N³.
+    pub fn references(&self) -> u64 {
+        let mut touched = vec![[0u64; 3]; self.axes[0].objects()];
+        for (axis, maps) in self.axes.iter().enumerate() {
+            for slice in 0..maps.len() as u32 {
+                for (word, mut bits) in maps.slice(slice).iter().copied().enumerate() {
+                    while bits != 0 {
+                        touched[word * 64 + bits.trailing_zeros() as usize][axis] += 1;
+                        bits &= bits - 1;
+                    }
+                }
+            }
+        }
+        touched.iter().map(|[x, y, z]| x * y * z).sum()
+    }
+}
+
+/// The box of all objects' boxes.
+pub(super) fn bounds_of<O: Objects>(objects: &O) -> Aabb {
+    (0..objects.len() as u32).fold(Aabb::EMPTY, |all, id| all.union(objects.bounds(id)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use accel::Vec3;
+    use accel::objects::Boxes;
+
+    /// Skala 1993, §5: M_BMSSM = 3·N·p bits.
+    #[test]
+    fn a_cell_holds_what_touches_it_and_the_maps_take_3np_bits() {
+        let boxes: Vec<Aabb> = (0..128)
+            .map(|i| Vec3::new(i as f32, (i % 8) as f32 * 16.0, 64.0))
+            .map(|min| Aabb { min, max: min + 0.5 })
+            .collect();
+        let objects = Boxes::new(&boxes);
+        let grid = Grid::new(bounds_of(&objects), [8; 3]).unwrap();
+        let maps = SpaceMaps::new(&objects, grid);
+        assert_eq!(maps.bytes() * 8, 3 * 8 * 128);
+        assert_eq!(maps.bytes() as u128, SpaceMaps::bytes_of([8; 3], 128));
+        let mut references = 0;
+        for cell in (0..512).map(|i| [i % 8, i / 8 % 8, i / 64]) {
+            let [r, s, t] = maps.cell(cell);
+            for id in 0..128u32 {
+                let word = id as usize / 64;
+                let bit = (r[word] & s[word] & t[word]) >> (id % 64) & 1 == 1;
+                let touches = (0..3).all(|axis| grid.slices(axis, &objects.bounds(id)).contains(&cell[axis]));
+                assert_eq!(bit, touches);
+                references += u64::from(bit);
+            }
+        }
+        assert_eq!(maps.references(), references);
+    }
+}
