@@ -6,12 +6,14 @@
 
 mod baldwin_weber;
 mod double;
+mod exact;
 mod moller_trumbore;
 mod watertight;
 mod wide;
 
 pub use baldwin_weber::BaldwinWeber;
 pub use double::Double;
+pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
 pub use watertight::Watertight;
 
@@ -95,11 +97,14 @@ pub enum KernelId {
     Watertight,
     /// [`Double`]
     Double,
+    /// [`Exact`]
+    Exact,
 }
 
 impl KernelId {
     /// All kernels there are.
-    pub const ALL: [Self; 4] = [Self::MollerTrumbore, Self::BaldwinWeber, Self::Watertight, Self::Double];
+    pub const ALL: [Self; 5] =
+        [Self::MollerTrumbore, Self::BaldwinWeber, Self::Watertight, Self::Double, Self::Exact];
 
     /// Name as used in settings and records.
     pub const fn id(self) -> &'static str {
@@ -108,6 +113,7 @@ impl KernelId {
             Self::BaldwinWeber => "baldwin-weber",
             Self::Watertight => "watertight",
             Self::Double => "double",
+            Self::Exact => "exact",
         }
     }
 
@@ -124,6 +130,7 @@ impl KernelId {
             Self::BaldwinWeber => with.kernel::<BaldwinWeber>(),
             Self::Watertight => with.kernel::<Watertight>(),
             Self::Double => with.kernel::<Double>(),
+            Self::Exact => with.kernel::<Exact>(),
         }
     }
 }

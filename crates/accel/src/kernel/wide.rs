@@ -16,9 +16,15 @@ pub(super) struct Inputs {
     corners: [Rows3; 3],
 }
 
-/// The products of Möller and Trumbore's test for one lane.
+/// The differences and products of Möller and Trumbore's test for one lane.
 #[derive(Clone, Copy)]
 pub(super) struct Products {
+    /// Edges from the first corner.
+    pub edges: [[f64; 3]; 2],
+    /// The origin relative to the first corner.
+    pub from_a: [f64; 3],
+    /// The ray's direction.
+    pub direction: [f64; 3],
     /// The determinant.
     pub det: f64,
     /// u, v and t times the determinant.
@@ -42,6 +48,12 @@ impl Inputs {
         }
     }
 
+    /// The corners of one lane.
+    #[inline(always)]
+    pub(super) fn corners(&self, lane: usize) -> [[f32; 3]; 3] {
+        [0, 1, 2].map(|corner| [0, 1, 2].map(|axis| self.corners[corner][axis][lane]))
+    }
+
     /// One lane in `f64`.
     #[inline(always)]
     pub(super) fn products(&self, lane: usize) -> Products {
@@ -53,7 +65,13 @@ impl Inputs {
         let from_a = sub(at(&self.origin), a);
         let p = cross(direction, edge2);
         let q = cross(from_a, edge1);
-        Products { det: dot(edge1, p), scaled: [dot(from_a, p), dot(direction, q), dot(edge2, q)] }
+        Products {
+            edges: [edge1, edge2],
+            from_a,
+            direction,
+            det: dot(edge1, p),
+            scaled: [dot(from_a, p), dot(direction, q), dot(edge2, q)],
+        }
     }
 }
 

@@ -63,7 +63,7 @@ impl WithKernel for Compare<'_> {
                 let mut reference = Nearest::new(f32::INFINITY);
                 for slot in (0..BLOCK).filter(|slot| mask >> slot & 1 != 0 && order[*slot] != EMPTY_SLOT) {
                     if let Some(surface) = objects.intersect(order[slot], ray, f32::INFINITY) {
-                        reference.offer(order[slot], surface);
+                        objects.closest(order[slot], ray, &mut reference);
                         let bounds = objects.bounds(order[slot]);
                         assert!(lawful(&bounds, ray, surface.t), "{:?} breaks the law on {ray:?}", K::ID);
                     }

@@ -1,0 +1,108 @@
+//! A test whose every decision is the true one, at the usual cost of one in `f32`.
+//!
+//! Three stages, each leaving to the next what it can't tell for certain:
+//!
+//! 1. [`reject`]: Möller and Trumbore's products in `f32` with an error bound, in lanes. Nearly all
+//!    triangles tested are missed, and nearly all misses end here.
+//! 2. [`decide`]: the same products in `f64` with an error bound. It settles hits, and rounds t correctly where
+//!    its bound leaves one `f32` only.
+//! 3. [`crate::exact::intersect`]: integers. Rays through an edge or a corner, and ranges that begin or end at the
+//!    hit, come here.
+//!
+//! t is the true one correctly rounded. Rounding keeps order, so of two hits the one reported at the lower t is the
+//! nearer one; hits reported at the same t are put in order by integers ([`Kernel::order`]).
+//!
+//! The idea of stages is that of J. R. Shewchuk, *Adaptive Precision Floating-Point
+//! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
+
+mod decide;
+mod reject;
+
+#[cfg(test)]
+mod tests;
+
+use super::{Corners, Kernel, KernelId, load_corners, splat_corners};
+use crate::packet::{Lanes, Packet, Vec3Lanes};
+use crate::simd::{Row, Scalar, Simd};
+use crate::{Ray, Vec3};
+use std::cmp::Ordering;
+
+/// The exact test: see the [module](self) and [`crate::exact`] for what counts as a hit.
+/// u and v are right to about one unit in the last place of 1.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exact;
+
+/// A ray and the size of its direction's largest component; see [`reject::span`].
+#[derive(Clone, Copy, Debug)]
+pub struct Spanned {
+    ray: Ray,
+    span: f32,
+}
+
+/// [`Spanned`] in lanes.
+#[derive(Clone, Copy)]
+pub struct SpannedLanes<S: Simd> {
+    rays: Packet<S>,
+    span: S::F,
+}
+
+impl Kernel for Exact {
+    const ID: KernelId = KernelId::Exact;
+    const ORDERS_TIES: bool = true;
+    type One = Spanned;
+    type Many<S: Simd> = SpannedLanes<S>;
+
+    #[inline(always)]
+    fn one(ray: &Ray) -> Spanned {
+        Spanned { ray: *ray, span: reject::span(Scalar, &ray.direction.to_array()) }
+    }
+
+    #[inline(always)]
+    fn many<S: Simd>(s: S, rays: &Packet<S>) -> SpannedLanes<S> {
+        SpannedLanes { rays: *rays, span: reject::span(s, &rays.direction) }
+    }
+
+    #[inline(always)]
+    fn triangles<S: Simd>(s: S, ray: &Spanned, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
+        let rays = SpannedLanes { rays: Packet::splat(s, &ray.ray), span: s.splat(ray.span) };
+        test(s, &rays, &load_corners(s, group, at), s.splat(t_max))
+    }
+
+    #[inline(always)]
+    fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
+        test(s, rays, &splat_corners(s, group, lane), t_max)
+    }
+
+    fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
+        if a == b {
+            return Ordering::Equal;
+        }
+        let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
+        let t = |corners| crate::exact::intersect(&line, corners).map(|hit| hit.t);
+        t(a).cmp(&t(b))
+    }
+}
+
+#[inline(always)]
+fn test<S: Simd>(s: S, ray: &SpannedLanes<S>, corners: &[Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S> {
+    let open = s.bits(reject::open(s, ray, corners, t_max));
+    if open == 0 {
+        let zero = s.splat(0.0);
+        return Lanes { hit: s.mask(0), t: zero, u: zero, v: zero };
+    }
+    let mut lanes = decide::decide(s, &ray.rays, corners, open);
+    // t is rounded: equal to the range's end it has been compared exactly.
+    lanes.hit = s.and(lanes.hit, s.and(s.le(ray.rays.t_min, lanes.t), s.le(lanes.t, t_max)));
+    lanes
+}
+
+/// What integers find, rounded.
+#[cold]
+fn by_integers(ray: &Ray, corners: &Corners) -> Option<[f32; 3]> {
+    let hit = crate::exact::intersect(ray, corners)?;
+    Some([hit.t.to_f32(), hit.u.to_f32(), hit.v.to_f32()])
+}
+
+fn corners_of(corners: [[f32; 3]; 3]) -> Corners {
+    corners.map(Vec3::from_array)
+}
