@@ -1,0 +1,230 @@
+//! `ssm-list`: a counter, a pointer and a list of ids in each cell (Skala 1993, §5).
+
+use crate::register::{Limit, register};
+use crate::{Resolution, Settings};
+use accel::dda::Walk;
+use accel::grid::Grid;
+use accel::simd::{Simd, Task};
+use accel::{
+    Accel, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, Need, NoCount, Objects, Ray,
+    RaySet, Scene, WithObjects, for_each_ray,
+};
+
+const ID: &str = "ssm-list";
+
+/// Builds `ssm-list`, the paper's grid.
+///
+/// Counters and ids take 2 bytes each where all of them fit, else 4; a pointer is a
+/// position among all ids and takes 4 bytes, since 2 (the paper's figure) would reach only 65,536 of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SsmList {
+    /// The settings.
+    pub settings: Settings,
+}
+
+impl Default for SsmList {
+    /// Four cells for each object.
+    fn default() -> Self {
+        Self { settings: Settings::new(Resolution::Density(4.0)) }
+    }
+}
+
+impl SsmList {
+    /// Changes one setting, see [`Settings::NAMES`].
+    ///
+    /// # Errors
+    /// [`BuildError::Setting`] if there is no such setting or the value makes no sense.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), BuildError> {
+        self.settings.set(ID, name, value)
+    }
+}
+
+impl Builder for SsmList {
+    fn id(&self) -> &str {
+        ID
+    }
+
+    fn settings(&self) -> String {
+        self.settings.display()
+    }
+
+    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        scene.with_objects(self.settings.kernel, Build(self.settings))
+    }
+}
+
+struct Build(Settings);
+
+impl<'s> WithObjects<'s> for Build {
+    type Out = Result<Box<dyn Accel + 's>, BuildError>;
+    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+        if objects.len() <= usize::from(u16::MAX) {
+            Ok(Box::new(Built::<O, u16>::new(objects, &self.0)?))
+        } else {
+            Ok(Box::new(Built::<O, u32>::new(objects, &self.0)?))
+        }
+    }
+}
+
+/// An id, or a number of ids.
+trait Id: Copy + Send + Sync {
+    fn narrow(value: u32) -> Self;
+    fn widen(self) -> u32;
+}
+
+impl Id for u16 {
+    fn narrow(value: u32) -> Self {
+        value as u16
+    }
+    #[inline(always)]
+    fn widen(self) -> u32 {
+        u32::from(self)
+    }
+}
+
+impl Id for u32 {
+    fn narrow(value: u32) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn widen(self) -> u32 {
+        self
+    }
+}
+
+struct Built<O, I> {
+    objects: O,
+    settings: Settings,
+    grid: Grid,
+    counters: Box<[I]>,
+    pointers: Box<[u32]>,
+    ids: Box<[I]>,
+}
+
+impl<O: Objects, I: Id> Built<O, I> {
+    fn new(objects: O, settings: &Settings) -> Result<Self, BuildError> {
+        let bounds = crate::resolution::bounds(&objects);
+        let grid = crate::resolution::grid(ID, settings, bounds, objects.len())?;
+        let limit = Limit::of(ID, settings);
+        let cells = limit.cells(u128::from(grid.cells()), (size_of::<I>() + 4) as u128)?;
+        let bytes = |ids: u64| {
+            cells as u128 * (size_of::<I>() + 4) as u128 + u128::from(ids) * size_of::<I>() as u128
+        };
+        let lists = register(cells, objects.len() as u32, limit, bytes, |object, found| {
+            let bounds = objects.bounds(object);
+            let [xs, ys, zs] = [0, 1, 2].map(|axis| grid.slices(axis, &bounds));
+            for z in zs {
+                for y in ys.clone() {
+                    let row = grid.index([0, y, z]) as u32;
+                    found.extend(xs.clone().map(|x| row + x));
+                }
+            }
+        })?;
+        let counters = lists.offsets.windows(2).map(|ends| I::narrow(ends[1] - ends[0])).collect();
+        let ids = lists.references.into_iter().map(I::narrow).collect();
+        let mut pointers = lists.offsets;
+        pointers.pop();
+        let pointers = pointers.into_boxed_slice();
+        Ok(Self { objects, settings: *settings, grid, counters, pointers, ids })
+    }
+
+    #[inline(always)]
+    fn nearest<C: Count, const ANY: bool>(&self, ray: &Ray, count: &mut C) -> Nearest {
+        let mut best = Nearest::new(ray.t_max);
+        let Some(segment) = self.grid.clip(ray) else {
+            return best;
+        };
+        let mut tested = Mailbox::default();
+        let mut limit = f32::INFINITY;
+        for cell in Walk::new(&self.grid, &segment) {
+            if cell.enter > limit {
+                break;
+            }
+            count.cells(1);
+            let index = self.grid.index(cell.slice);
+            let first = self.pointers[index] as usize;
+            for id in &self.ids[first..first + self.counters[index].widen() as usize] {
+                let id = id.widen();
+                count.candidates(1);
+                if tested.contains_or_insert(id) {
+                    continue;
+                }
+                count.tests(1);
+                if let Some(surface) = self.objects.intersect(id, ray, best.t) {
+                    best.offer(id, surface);
+                    if ANY {
+                        return best;
+                    }
+                    limit = segment.limit(best.t);
+                }
+            }
+        }
+        best
+    }
+}
+
+/// The objects that a ray has met lately.
+struct Mailbox([u32; 16]);
+
+impl Default for Mailbox {
+    fn default() -> Self {
+        Self([Nearest::NONE; 16])
+    }
+}
+
+impl Mailbox {
+    #[inline(always)]
+    fn contains_or_insert(&mut self, id: u32) -> bool {
+        let place = &mut self.0[id as usize % 16];
+        std::mem::replace(place, id) == id
+    }
+}
+
+/// A ray traced with the chosen instruction set.
+struct Trace<'a, O, I, const ANY: bool>(&'a Built<O, I>, &'a Ray);
+
+impl<O: Objects, I: Id, const ANY: bool> Task for Trace<'_, O, I, ANY> {
+    type Out = Nearest;
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Nearest {
+        self.0.nearest::<NoCount, ANY>(self.1, &mut NoCount)
+    }
+}
+
+impl<O: Objects, I: Id> Accel for Built<O, I> {
+    fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.settings.simd.run(Trace::<_, _, false>(self, ray)).hit()
+    }
+
+    fn occluded(&self, ray: &Ray) -> bool {
+        self.settings.simd.run(Trace::<_, _, true>(self, ray)).hit().is_some()
+    }
+
+    fn trace(&self, rays: &RaySet, hits: &mut [Option<Hit>]) {
+        for_each_ray(rays, hits, |ray| self.closest(ray));
+    }
+
+    fn footprint(&self) -> Footprint {
+        Footprint::default()
+            .structure("counters", size_of_val(&*self.counters))
+            .structure("pointers", size_of_val(&*self.pointers))
+            .structure("ids", size_of_val(&*self.ids))
+    }
+
+    fn plan(&self) -> String {
+        let [x, y, z] = self.grid.resolution();
+        format!("{x}x{y}x{z} cells by {}, ids of {} bytes", self.settings.resolution, size_of::<I>())
+    }
+
+    fn count(&self, rays: &RaySet, occlusion: bool) -> Option<Counters> {
+        let mut counters = Counters::default();
+        for i in 0..rays.len() {
+            if occlusion {
+                self.nearest::<_, true>(&rays.ray(i), &mut counters);
+            } else {
+                self.nearest::<_, false>(&rays.ray(i), &mut counters);
+            }
+        }
+        Some(counters)
+    }
+}

@@ -1,0 +1,169 @@
+//! Which references each cell holds: the two passes of Lagae and Dutré 2008, §3.2, on all
+//! threads of the current pool.
+
+use crate::Settings;
+use accel::BuildError;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// For each cell a list of references, one list behind another.
+#[derive(Debug)]
+pub(crate) struct Lists {
+    /// Where each cell's list begins, and behind the last cell where it ends.
+    pub offsets: Vec<u32>,
+    /// All lists; ascending within a cell.
+    pub references: Vec<u32>,
+}
+
+/// The memory a grid may take.
+#[derive(Clone, Copy)]
+pub(crate) struct Limit {
+    pub structure: &'static str,
+    pub bytes: u128,
+}
+
+impl Limit {
+    pub fn of(structure: &'static str, settings: &Settings) -> Self {
+        Self { structure, bytes: settings.memory.unwrap_or_else(accel::available_memory) }
+    }
+
+    /// The number of cells, if an array of them with `each` bytes fits.
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if it doesn't, or has more cells than 32 bits number.
+    pub fn cells(self, cells: u128, each: u128) -> Result<usize, BuildError> {
+        let most = self.bytes.min(u128::from(u32::MAX) * each);
+        Self { bytes: most, ..self }.check(cells * each)?;
+        Ok(cells as usize)
+    }
+
+    pub fn check(self, bytes: u128) -> Result<(), BuildError> {
+        let Self { structure, bytes: limit } = self;
+        if bytes <= limit {
+            return Ok(());
+        }
+        Err(BuildError::TooLarge { structure: structure.into(), bytes, limit })
+    }
+}
+
+/// Lists, for each of `cells` cells, those of the references `0..references` that
+/// `cells_of` puts there. `cells_of` appends cells to an empty vector, each once.
+/// `bytes(n)` is what a grid with n references in its lists takes, held against the limit before it is
+/// allocated.
+///
+/// # Errors
+/// [`BuildError::TooLarge`] if memory or 32-bit positions don't suffice.
+pub(crate) fn register(
+    cells: usize,
+    references: u32,
+    limit: Limit,
+    bytes: impl Fn(u64) -> u128,
+    cells_of: impl Fn(u32, &mut Vec<u32>) + Sync,
+) -> Result<Lists, BuildError> {
+    limit.check(bytes(0))?;
+    let alone = rayon::current_num_threads() == 1;
+    let add = |counter: &AtomicU32, n: u32| {
+        if alone {
+            // No lock prefix where nobody else looks.
+            let old = counter.load(Relaxed);
+            counter.store(old.wrapping_add(n), Relaxed);
+            old
+        } else {
+            counter.fetch_add(n, Relaxed)
+        }
+    };
+    let each = |with: &(dyn Fn(u32, &[u32]) + Sync)| {
+        const CHUNK: u32 = 256;
+        (0..references.div_ceil(CHUNK)).into_par_iter().for_each_init(Vec::new, |found, chunk| {
+            for reference in chunk * CHUNK..references.min((chunk + 1) * CHUNK) {
+                found.clear();
+                cells_of(reference, found);
+                with(reference, found);
+            }
+        });
+    };
+    let offsets: Vec<AtomicU32> = vec![0; cells + 1].into_iter().map(AtomicU32::new).collect();
+    each(&|_, found| {
+        for cell in found {
+            add(&offsets[*cell as usize], 1);
+        }
+    });
+    // Each cell's entry becomes the end of its list; filling moves it down to the start.
+    let mut end = 0u64;
+    for offset in &offsets {
+        end += u64::from(offset.load(Relaxed));
+        offset.store(end as u32, Relaxed);
+    }
+    let numbered = bytes(u64::from(u32::MAX));
+    Limit { bytes: limit.bytes.min(numbered), ..limit }.check(bytes(end))?;
+    let lists: Vec<AtomicU32> = vec![0; end as usize].into_iter().map(AtomicU32::new).collect();
+    each(&|reference, found| {
+        for cell in found {
+            let place = add(&offsets[*cell as usize], u32::MAX) - 1;
+            lists[place as usize].store(reference, Relaxed);
+        }
+    });
+    let offsets: Vec<u32> = offsets.into_iter().map(AtomicU32::into_inner).collect();
+    let mut references: Vec<u32> = lists.into_iter().map(AtomicU32::into_inner).collect();
+    sort_lists(&offsets, &mut references);
+    Ok(Lists { offsets, references })
+}
+
+/// Puts every list in ascending order, so that threads leave no trace.
+fn sort_lists(offsets: &[u32], mut references: &mut [u32]) {
+    const CHUNK: usize = 1 << 14;
+    let cells = offsets.len() - 1;
+    let mut chunks = Vec::new();
+    for first in (0..cells).step_by(CHUNK) {
+        let last = cells.min(first + CHUNK);
+        let (own, rest) = references.split_at_mut((offsets[last] - offsets[first]) as usize);
+        chunks.push((&offsets[first..=last], own));
+        references = rest;
+    }
+    chunks.into_par_iter().for_each(|(offsets, references)| {
+        for ends in offsets.windows(2) {
+            if ends[1] - ends[0] > 1 {
+                references[(ends[0] - offsets[0]) as usize..(ends[1] - offsets[0]) as usize].sort_unstable();
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ANY: Limit = Limit { structure: "test", bytes: u128::MAX };
+
+    fn modulo(threads: usize) -> Lists {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let cells_of =
+            |r: u32, found: &mut Vec<u32>| found.extend((0..7).filter(|cell| r.is_multiple_of(cell + 2)));
+        pool.install(|| register(8, 1000, ANY, |n| 4 * u128::from(n), cells_of)).unwrap()
+    }
+
+    #[test]
+    fn lists_are_whole_and_in_order_on_any_number_of_threads() {
+        for lists in [modulo(1), modulo(3)] {
+            assert_eq!(lists.offsets.len(), 9);
+            assert_eq!(lists.offsets[7], lists.offsets[8], "the last cell is empty");
+            for cell in 0..7u32 {
+                let list = &lists.references
+                    [lists.offsets[cell as usize] as usize..lists.offsets[cell as usize + 1] as usize];
+                let expected: Vec<u32> = (0..1000).filter(|r| r % (cell + 2) == 0).collect();
+                assert_eq!(list, expected);
+            }
+        }
+    }
+
+    #[test]
+    fn the_limit_is_held_before_and_after_counting() {
+        let all = |_: u32, found: &mut Vec<u32>| found.extend(0..100);
+        let bytes = |n: u64| 400 + 4 * u128::from(n);
+        let with = |limit| register(100, 50, Limit { structure: "test", bytes: limit }, bytes, all);
+        let error = |bytes, limit| BuildError::TooLarge { structure: "test".into(), bytes, limit };
+        assert_eq!(with(100).unwrap_err(), error(400, 100));
+        assert_eq!(with(500).unwrap_err(), error(20_400, 500));
+        assert!(with(20_400).is_ok());
+    }
+}

@@ -1,0 +1,103 @@
+//! Both grids against brute force with the same kernel: not one bit may differ.
+
+mod common;
+
+use accel::simd::Level;
+use accel::{Builder, Geometry, KernelId, Mesh, Need, Scene, Vec3};
+use common::{boxes, cloud, compare, mesh, moved, rays, scene};
+use proptest::prelude::*;
+use ssm::{Resolution, Settings, Ssm, SsmList};
+
+/// All builders with these settings.
+fn builders(settings: Settings) -> [Box<dyn Builder>; 2] {
+    [Box::new(SsmList { settings }), Box::new(Ssm { settings })]
+}
+
+fn check(scene: &Scene, count: usize, settings: Settings) {
+    let rays = rays(scene, count);
+    for builder in builders(settings) {
+        let built = builder.build(scene, &Need::GENERAL).unwrap();
+        let what = format!("{} {}", builder.id(), builder.settings());
+        compare(scene, settings.kernel, &rays, &what, &*built);
+    }
+}
+
+const DENSE: Resolution = Resolution::Density(8.0);
+
+#[test]
+fn every_instruction_set_and_number_of_threads() {
+    let scene = cloud(700, 0.2);
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        for simd in Level::here() {
+            for kernel in KernelId::ALL {
+                let settings = Settings { simd, kernel, ..Settings::new(DENSE) };
+                pool.install(|| check(&scene, 2000, settings));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_resolution() {
+    let scenes = [cloud(500, 0.1), cloud(60, 1.5), boxes(400, 0.3)];
+    for slices in [[1; 3], [2; 3], [4; 3], [5; 3], [64; 3], [1, 7, 30], [33, 2, 1], [3, 1, 100]] {
+        for scene in &scenes {
+            check(scene, 1500, Settings::new(Resolution::Slices(slices)));
+        }
+    }
+}
+
+#[test]
+fn extreme_scenes() {
+    let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
+    let flat = mesh((0..200).map(|i| {
+        let (x, y) = ((i % 20) as f32, (i / 20) as f32);
+        [corner(x, y), corner(x + 1.0, y), corner(x, y + 1.0)]
+    }));
+    let triangle = [Vec3::ZERO, Vec3::X, Vec3::Y];
+    let scenes = [
+        scene(Geometry::Triangles(Mesh::default())),
+        scene(Geometry::Boxes(Vec::new())),
+        mesh([triangle]),
+        mesh([triangle; 100]),
+        mesh([[Vec3::ONE; 3]; 3]),
+        flat,
+        boxes(1, 0.5),
+        moved(cloud(200, 0.2), 1.0, Vec3::new(1.5e5, 1234.0, -2.2e5)),
+        moved(cloud(200, 0.2), 1e-18, Vec3::ZERO),
+        moved(cloud(200, 0.2), 1e15, Vec3::ZERO),
+        moved(boxes(200, 0.2), 1e-4, Vec3::splat(1e3)),
+    ];
+    for scene in &scenes {
+        for resolution in [DENSE, Resolution::Slices([4; 3]), Resolution::Slices([1, 9, 40])] {
+            for kernel in KernelId::ALL {
+                check(scene, 1500, Settings { kernel, ..Settings::new(resolution) });
+            }
+        }
+    }
+}
+
+#[test]
+fn ids_of_four_bytes() {
+    let scene = cloud(70_000, 0.02);
+    check(&scene, 300, Settings::new(Resolution::Density(1.0)));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn any_cloud_at_any_resolution(
+        count in 1usize..200,
+        size in prop_oneof![0.01f32..0.1, 0.5f32..3.0],
+        slices in prop::array::uniform3(prop_oneof![1u32..6, 6u32..80]),
+        stretch in 0.0f32..1.0,
+    ) {
+        let mut scene = cloud(count, size);
+        if let Geometry::Triangles(mesh) = &mut scene.geometry {
+            mesh.positions.iter_mut().for_each(|p| p.y *= stretch);
+        }
+        check(&scene, 400, Settings::new(Resolution::Slices(slices)));
+    }
+}
