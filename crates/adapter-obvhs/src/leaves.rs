@@ -1,0 +1,99 @@
+//! What hangs on a tree's leaves.
+
+use accel::objects::{Boxes, Objects};
+use accel::{Mesh, vec_bytes};
+use obvhs::aabb::Aabb;
+use obvhs::ray::Ray;
+use obvhs::rt_triangle::RtTriangle;
+use obvhs::triangle::Triangle;
+
+/// Objects in the order of a tree's leaves.
+pub trait Leaves: Send + Sync {
+    /// Where the object of a slot is hit within the ray's range, +∞ for nowhere.
+    fn hit(&self, slot: usize, ray: &Ray) -> f32;
+
+    /// The surface coordinates of a hit that [`Leaves::hit`] has found.
+    fn surface(&self, slot: usize, ray: &Ray) -> (f32, f32);
+
+    /// Bytes copied of the scene.
+    fn bytes(&self) -> usize;
+}
+
+/// The corners of all triangles, as obvhs' builders take them.
+pub fn triangles_of(mesh: &Mesh) -> Vec<Triangle> {
+    let triangle = |index| {
+        let [v0, v1, v2] = mesh.corners(index).map(Into::into);
+        Triangle { v0, v1, v2 }
+    };
+    (0..mesh.triangles.len()).map(triangle).collect()
+}
+
+/// Triangles with precomputed edges and normal, 64 bytes each.
+pub struct TriangleLeaves(Vec<RtTriangle>);
+
+impl TriangleLeaves {
+    /// Slot i holds triangle `order[i]`; a triangle that was split is in several slots.
+    pub fn new(triangles: &[Triangle], order: &[u32]) -> Self {
+        Self(order.iter().map(|&id| RtTriangle::from(&triangles[id as usize])).collect())
+    }
+}
+
+impl Leaves for TriangleLeaves {
+    #[inline(always)]
+    fn hit(&self, slot: usize, ray: &Ray) -> f32 {
+        self.0[slot].intersect(ray)
+    }
+
+    #[inline(always)]
+    fn surface(&self, slot: usize, ray: &Ray) -> (f32, f32) {
+        self.0[slot].compute_barycentric(ray).into()
+    }
+
+    fn bytes(&self) -> usize {
+        vec_bytes(&self.0)
+    }
+}
+
+/// The padded boxes of boxes, as obvhs' builders take them.
+pub fn bounds_of(boxes: &Boxes<'_>) -> Vec<Aabb> {
+    let bounds = |id| {
+        let bounds = boxes.bounds(id);
+        Aabb { min: bounds.min.into(), max: bounds.max.into() }
+    };
+    (0..boxes.len() as u32).map(bounds).collect()
+}
+
+/// Boxes, tested where they lie in the scene.
+pub struct BoxLeaves<'s> {
+    boxes: Boxes<'s>,
+    order: Vec<u32>,
+}
+
+impl<'s> BoxLeaves<'s> {
+    /// Slot i holds box `order[i]`.
+    pub fn new(boxes: Boxes<'s>, order: &[u32]) -> Self {
+        Self { boxes, order: order.to_vec() }
+    }
+}
+
+impl Leaves for BoxLeaves<'_> {
+    #[inline(always)]
+    fn hit(&self, slot: usize, ray: &Ray) -> f32 {
+        let own = accel::Ray {
+            origin: ray.origin.into(),
+            direction: ray.direction.into(),
+            t_min: ray.tmin,
+            t_max: ray.tmax,
+        };
+        self.boxes.intersect(self.order[slot], &own, ray.tmax).map_or(f32::INFINITY, |surface| surface.t)
+    }
+
+    #[inline(always)]
+    fn surface(&self, _: usize, _: &Ray) -> (f32, f32) {
+        (0.0, 0.0)
+    }
+
+    fn bytes(&self) -> usize {
+        vec_bytes(&self.order)
+    }
+}

@@ -1,0 +1,187 @@
+//! obvhs' trees as structures of the comparison.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use accel::objects::Boxes;
+use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Need, Ray, Scene};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::cwbvh::CwBvh;
+
+use crate::leaves::{BoxLeaves, Leaves, TriangleLeaves, bounds_of, triangles_of};
+use crate::tree::Tree;
+
+/// Which of obvhs' trees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variant {
+    /// Binary, nodes of 48 bytes.
+    Bvh2,
+    /// Eight-wide and compressed, nodes of 80 bytes.
+    CwBvh,
+}
+
+impl Variant {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Bvh2, Self::CwBvh];
+
+    /// Its id as a structure.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Bvh2 => "obvhs-bvh2",
+            Self::CwBvh => "obvhs-cwbvh",
+        }
+    }
+}
+
+/// obvhs' own presets of build time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// `fastest_build`.
+    Fastest,
+    /// `medium_build`.
+    #[default]
+    Medium,
+    /// `very_slow_build`, which splits large triangles beforehand.
+    VerySlow,
+}
+
+impl Preset {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Fastest, Self::Medium, Self::VerySlow];
+
+    /// Its name as a setting.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Fastest => "fastest",
+            Self::Medium => "medium",
+            Self::VerySlow => "very-slow",
+        }
+    }
+
+    /// The preset of that name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.id() == id)
+    }
+
+    const fn parameters(self) -> BvhBuildParams {
+        match self {
+            Self::Fastest => BvhBuildParams::fastest_build(),
+            Self::Medium => BvhBuildParams::medium_build(),
+            Self::VerySlow => BvhBuildParams::very_slow_build(),
+        }
+    }
+}
+
+/// Builds obvhs' trees, on one thread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ObvhsBuilder {
+    /// Which tree.
+    pub variant: Variant,
+    /// Time allowed for the build.
+    pub preset: Preset,
+}
+
+impl ObvhsBuilder {
+    /// With the medium preset.
+    pub const fn new(variant: Variant) -> Self {
+        Self { variant, preset: Preset::Medium }
+    }
+}
+
+impl Builder for ObvhsBuilder {
+    fn id(&self) -> &str {
+        self.variant.id()
+    }
+
+    fn settings(&self) -> String {
+        format!("build={}", self.preset.id())
+    }
+
+    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        if scene.geometry.is_empty() {
+            return Ok(Box::new(Nothing));
+        }
+        let parameters = self.preset.parameters();
+        // obvhs asserts where geometry is out of its reach; one failed cell must not end a run.
+        let built = catch_unwind(AssertUnwindSafe(|| match self.variant {
+            Variant::Bvh2 => built::<Bvh2>(&scene.geometry, parameters),
+            Variant::CwBvh => built::<CwBvh>(&scene.geometry, parameters),
+        }));
+        built.map_err(|panic| BuildError::Library {
+            structure: self.variant.id().to_owned(),
+            message: words_of(panic.as_ref()),
+        })
+    }
+}
+
+/// What a panic said.
+fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("it panicked").to_owned()
+}
+
+fn built<'s, T: Tree + 's>(geometry: &'s Geometry, parameters: BvhBuildParams) -> Box<dyn Accel + 's> {
+    match geometry {
+        Geometry::Triangles(mesh) => {
+            let triangles = triangles_of(mesh);
+            let tree = T::of_triangles(&triangles, parameters);
+            let leaves = TriangleLeaves::new(&triangles, tree.order());
+            Box::new(Built { tree, leaves })
+        }
+        Geometry::Boxes(boxes) => {
+            let boxes = Boxes::new(boxes);
+            let tree = T::of_boxes(&bounds_of(&boxes), parameters);
+            let leaves = BoxLeaves::new(boxes, tree.order());
+            Box::new(Built { tree, leaves })
+        }
+    }
+}
+
+struct Built<T, L> {
+    tree: T,
+    leaves: L,
+}
+
+#[inline(always)]
+fn converted(ray: &Ray) -> obvhs::ray::Ray {
+    obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), ray.t_min, ray.t_max)
+}
+
+impl<T: Tree, L: Leaves> Accel for Built<T, L> {
+    #[inline]
+    fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let ray = converted(ray);
+        let (t, slot) = self.tree.closest(ray, |ray, slot| self.leaves.hit(slot, ray))?;
+        let (u, v) = self.leaves.surface(slot, &ray);
+        Some(Hit { t, object: self.tree.order()[slot], u, v })
+    }
+
+    #[inline]
+    fn occluded(&self, ray: &Ray) -> bool {
+        !self.tree.clear(converted(ray), |ray, slot| self.leaves.hit(slot, ray))
+    }
+
+    fn footprint(&self) -> Footprint {
+        let [(nodes, node_bytes), (indices, index_bytes)] = self.tree.bytes();
+        Footprint::default()
+            .structure(nodes, node_bytes)
+            .structure(indices, index_bytes)
+            .geometry_copy("objects", self.leaves.bytes())
+    }
+}
+
+/// No objects, no tree.
+struct Nothing;
+
+impl Accel for Nothing {
+    fn closest(&self, _: &Ray) -> Option<Hit> {
+        None
+    }
+
+    fn footprint(&self) -> Footprint {
+        Footprint::default()
+    }
+}
+
+#[cfg(test)]
+mod tests;
