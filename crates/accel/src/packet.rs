@@ -38,30 +38,33 @@ impl<S: Simd> Packet<S> {
     #[inline(always)]
     pub fn load(s: S, rays: &[Ray]) -> Self {
         let rays = &rays[..S::LANES];
-        let lanes = |of: &dyn Fn(&Ray) -> f32| {
-            let mut values = [0.0; ROW];
-            for (value, ray) in values.iter_mut().zip(rays) {
-                *value = of(ray);
+        let mut rows = [[0.0; ROW]; 8];
+        for (lane, ray) in rays.iter().enumerate() {
+            for axis in 0..3 {
+                rows[axis][lane] = ray.origin[axis];
+                rows[3 + axis][lane] = ray.direction[axis];
             }
-            s.load(&values)
-        };
+            rows[6][lane] = ray.t_min;
+            rows[7][lane] = ray.t_max;
+        }
         Self {
-            origin: [0, 1, 2].map(|axis| lanes(&|ray| ray.origin[axis])),
-            direction: [0, 1, 2].map(|axis| lanes(&|ray| ray.direction[axis])),
-            t_min: lanes(&|ray| ray.t_min),
-            t_max: lanes(&|ray| ray.t_max),
+            origin: [s.load(&rows[0]), s.load(&rows[1]), s.load(&rows[2])],
+            direction: [s.load(&rows[3]), s.load(&rows[4]), s.load(&rows[5])],
+            t_min: s.load(&rows[6]),
+            t_max: s.load(&rows[7]),
         }
     }
 
     /// The ray of one lane. For paths that are taken rarely.
     #[inline(always)]
     pub fn ray(&self, s: S, lane: usize) -> Ray {
-        let at = |v: S::F| lane_of(s, v, lane);
+        let [x, y, z] = self.origin;
+        let [dx, dy, dz] = self.direction;
         Ray {
-            origin: Vec3::from_array(self.origin.map(at)),
-            direction: Vec3::from_array(self.direction.map(at)),
-            t_min: at(self.t_min),
-            t_max: at(self.t_max),
+            origin: Vec3::new(lane_of(s, x, lane), lane_of(s, y, lane), lane_of(s, z, lane)),
+            direction: Vec3::new(lane_of(s, dx, lane), lane_of(s, dy, lane), lane_of(s, dz, lane)),
+            t_min: lane_of(s, self.t_min, lane),
+            t_max: lane_of(s, self.t_max, lane),
         }
     }
 }

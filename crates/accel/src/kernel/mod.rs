@@ -149,18 +149,31 @@ pub trait WithKernel {
     fn kernel<K: Kernel>(self) -> Self::Out;
 }
 
+// Plain functions and no closures: only what is `#[inline(always)]` is sure to be compiled
+// with the instruction set of its caller.
+
 /// The corners of `LANES` packed triangles from lane `at` on.
 #[inline(always)]
 pub(crate) fn load_corners<S: Simd>(s: S, group: &[Row], at: usize) -> [Vec3Lanes<S>; 3] {
     let rows = &group[..9];
-    [0, 3, 6].map(|first| [0, 1, 2].map(|axis| s.load(&rows[first + axis].0[at..])))
+    [load3(s, &rows[..3], at), load3(s, &rows[3..6], at), load3(s, &rows[6..], at)]
+}
+
+#[inline(always)]
+fn load3<S: Simd>(s: S, rows: &[Row], at: usize) -> Vec3Lanes<S> {
+    [s.load(&rows[0].0[at..]), s.load(&rows[1].0[at..]), s.load(&rows[2].0[at..])]
 }
 
 /// The corners of one packed triangle in all lanes.
 #[inline(always)]
 pub(crate) fn splat_corners<S: Simd>(s: S, group: &[Row], lane: usize) -> [Vec3Lanes<S>; 3] {
     let rows = &group[..9];
-    [0, 3, 6].map(|first| [0, 1, 2].map(|axis| s.splat(rows[first + axis].0[lane])))
+    [splat_row3(s, &rows[..3], lane), splat_row3(s, &rows[3..6], lane), splat_row3(s, &rows[6..], lane)]
+}
+
+#[inline(always)]
+fn splat_row3<S: Simd>(s: S, rows: &[Row], lane: usize) -> Vec3Lanes<S> {
+    [s.splat(rows[0].0[lane]), s.splat(rows[1].0[lane]), s.splat(rows[2].0[lane])]
 }
 
 /// a − b
@@ -169,11 +182,16 @@ pub(crate) fn sub3<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> Vec3Lanes
     [s.sub(a[0], b[0]), s.sub(a[1], b[1]), s.sub(a[2], b[2])]
 }
 
+/// ad − bc
+#[inline(always)]
+pub(crate) fn det2<S: Simd>(s: S, a: S::F, b: S::F, c: S::F, d: S::F) -> S::F {
+    s.sub(s.mul(a, d), s.mul(b, c))
+}
+
 /// a × b
 #[inline(always)]
 pub(crate) fn cross3<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> Vec3Lanes<S> {
-    let minor = |i: usize, j: usize| s.sub(s.mul(a[i], b[j]), s.mul(a[j], b[i]));
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
+    [det2(s, a[1], a[2], b[1], b[2]), det2(s, a[2], a[0], b[2], b[0]), det2(s, a[0], a[1], b[0], b[1])]
 }
 
 /// a · b, summed from x to z

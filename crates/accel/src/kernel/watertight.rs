@@ -2,10 +2,10 @@
 //! Computer Graphics Techniques 2(1), 2013: the ray is sheared onto an axis, edge functions
 //! are evaluated in the plane, and a zero edge function is evaluated again in `f64`.
 
-use super::{Kernel, KernelId, load_corners, splat_corners, sub3};
-use crate::Ray;
+use super::{Kernel, KernelId, det2, dot3, load_corners, splat_corners, sub3};
 use crate::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use crate::simd::{ROW, Row, Simd};
+use crate::{Ray, Vec3};
 
 /// Woop, Benthin and Wald's test, two-sided: a ray through a closed mesh never slips
 /// between two triangles that share an edge or a corner.
@@ -44,10 +44,11 @@ impl<S: Simd> Dominant<S> {
     fn rotate(&self, s: S, v: Vec3Lanes<S>) -> Vec3Lanes<S> {
         match *self {
             Self::Same(axis) => rotate(v, axis),
-            Self::Mixed { x, y } => {
-                let pick = |if_x, if_y, if_z| s.select(x, if_x, s.select(y, if_y, if_z));
-                [pick(v[1], v[2], v[0]), pick(v[2], v[0], v[1]), pick(v[0], v[1], v[2])]
-            }
+            Self::Mixed { x, y } => [
+                s.select(x, v[1], s.select(y, v[2], v[0])),
+                s.select(x, v[2], s.select(y, v[0], v[1])),
+                s.select(x, v[0], s.select(y, v[1], v[2])),
+            ],
         }
     }
 }
@@ -88,7 +89,8 @@ impl Kernel for Watertight {
 
     #[inline(always)]
     fn many<S: Simd>(s: S, rays: &Packet<S>) -> ShearedLanes<S> {
-        let size = rays.direction.map(|d| s.abs(d));
+        let [x, y, z] = rays.direction;
+        let size = [s.abs(x), s.abs(y), s.abs(z)];
         let x = s.and(s.le(size[1], size[0]), s.le(size[2], size[0]));
         let y = s.le(size[2], size[1]);
         let all = u32::MAX >> (32 - S::LANES);
@@ -112,7 +114,7 @@ impl Kernel for Watertight {
             origin: splat3(s, ray.ray.origin),
             t_min: s.splat(ray.ray.t_min),
             dominant: Dominant::Same(ray.dominant),
-            shear: ray.shear.map(|v| s.splat(v)),
+            shear: splat3(s, Vec3::from_array(ray.shear)),
         };
         test(s, &lanes, load_corners(s, group, at), s.splat(t_max))
     }
@@ -124,26 +126,39 @@ impl Kernel for Watertight {
 }
 
 #[inline(always)]
+fn sheared<S: Simd>(s: S, ray: &ShearedLanes<S>, corner: Vec3Lanes<S>) -> Vec3Lanes<S> {
+    let [x, y, z] = ray.dominant.rotate(s, sub3(s, corner, ray.origin));
+    [s.sub(x, s.mul(ray.shear[0], z)), s.sub(y, s.mul(ray.shear[1], z)), z]
+}
+
+#[inline(always)]
+fn edge<S: Simd>(s: S, p: Vec3Lanes<S>, q: Vec3Lanes<S>) -> S::F {
+    det2(s, p[0], p[1], q[0], q[1])
+}
+
+#[inline(always)]
+fn all3<S: Simd>(s: S, a: S::M, b: S::M, c: S::M) -> S::M {
+    s.and(s.and(a, b), c)
+}
+
+#[inline(always)]
 fn test<S: Simd>(s: S, ray: &ShearedLanes<S>, corners: [Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S> {
     let zero = s.splat(0.0);
-    let [shear_x, shear_y, shear_z] = ray.shear;
-    let [a, b, c] = corners.map(|corner| {
-        let [x, y, z] = ray.dominant.rotate(s, sub3(s, corner, ray.origin));
-        [s.sub(x, s.mul(shear_x, z)), s.sub(y, s.mul(shear_y, z)), z]
-    });
-    let edge = |p: Vec3Lanes<S>, q: Vec3Lanes<S>| s.sub(s.mul(p[0], q[1]), s.mul(p[1], q[0]));
-    let mut edges = [edge(c, b), edge(a, c), edge(b, a)];
+    let [a, b, c] = corners;
+    let (a, b, c) = (sheared(s, ray, a), sheared(s, ray, b), sheared(s, ray, c));
+    let mut edges = [edge(s, c, b), edge(s, a, c), edge(s, b, a)];
     let on_edge = s.or(s.or(s.eq(edges[0], zero), s.eq(edges[1], zero)), s.eq(edges[2], zero));
     let on_edge = s.bits(on_edge);
     if on_edge != 0 {
         edges = in_double(s, edges, [a, b, c], on_edge);
     }
     let [ea, eb, ec] = edges;
-    let all = |le: &dyn Fn(S::F) -> S::M| s.and(s.and(le(ea), le(eb)), le(ec));
-    let inside = s.or(all(&|e| s.le(zero, e)), all(&|e| s.le(e, zero)));
+    let left = all3(s, s.le(zero, ea), s.le(zero, eb), s.le(zero, ec));
+    let right = all3(s, s.le(ea, zero), s.le(eb, zero), s.le(ec, zero));
+    let inside = s.or(left, right);
     let det = s.add(s.add(ea, eb), ec);
-    let scaled = |e: S::F, z: S::F| s.mul(e, s.mul(shear_z, z));
-    let t = s.add(s.add(scaled(ea, a[2]), scaled(eb, b[2])), scaled(ec, c[2]));
+    let along = [s.mul(ray.shear[2], a[2]), s.mul(ray.shear[2], b[2]), s.mul(ray.shear[2], c[2])];
+    let t = dot3(s, edges, along);
     let reciprocal = s.div(s.splat(1.0), det);
     let t = s.mul(t, reciprocal);
     // A zero determinant makes t NaN or infinite; only the infinite one needs refusing.
@@ -154,26 +169,34 @@ fn test<S: Simd>(s: S, ray: &ShearedLanes<S>, corners: [Vec3Lanes<S>; 3], t_max:
 
 /// Edge functions of the lanes `on_edge` in `f64`, where products of two `f32` are exact.
 #[inline(always)]
-fn in_double<S: Simd>(
-    s: S,
-    edges: Vec3Lanes<S>,
-    corners: [Vec3Lanes<S>; 3],
-    mut on_edge: u32,
-) -> Vec3Lanes<S> {
-    let rows = |v: S::F| {
-        let mut row = [0.0; ROW];
-        s.store(v, &mut row);
-        row
-    };
-    let mut e = edges.map(rows);
-    let xy = corners.map(|[x, y, _]| [rows(x), rows(y)]);
+fn in_double<S: Simd>(s: S, edges: Vec3Lanes<S>, corners: [Vec3Lanes<S>; 3], on_edge: u32) -> Vec3Lanes<S> {
+    let mut rows = [[0.0; ROW]; 9];
+    let [a, b, c] = corners;
+    s.store(edges[0], &mut rows[0]);
+    s.store(edges[1], &mut rows[1]);
+    s.store(edges[2], &mut rows[2]);
+    s.store(a[0], &mut rows[3]);
+    s.store(a[1], &mut rows[4]);
+    s.store(b[0], &mut rows[5]);
+    s.store(b[1], &mut rows[6]);
+    s.store(c[0], &mut rows[7]);
+    s.store(c[1], &mut rows[8]);
+    edges_in_double(&mut rows, on_edge);
+    [s.load(&rows[0]), s.load(&rows[1]), s.load(&rows[2])]
+}
+
+/// Writes edge functions to rows 0 to 2 from the x and y of three corners in rows 3 to 8.
+#[cold]
+fn edges_in_double(rows: &mut [[f32; ROW]; 9], mut on_edge: u32) {
     while on_edge != 0 {
         let lane = on_edge.trailing_zeros() as usize;
         on_edge &= on_edge - 1;
-        let at = |corner: usize| xy[corner].map(|row| f64::from(row[lane]));
+        let at = |row: usize| [f64::from(rows[row][lane]), f64::from(rows[row + 1][lane])];
         let edge = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1] - p[1] * q[0]) as f32;
-        let [a, b, c] = [at(0), at(1), at(2)];
-        (e[0][lane], e[1][lane], e[2][lane]) = (edge(c, b), edge(a, c), edge(b, a));
+        let (a, b, c) = (at(3), at(5), at(7));
+        let edges = [edge(c, b), edge(a, c), edge(b, a)];
+        for (row, edge) in rows.iter_mut().zip(edges) {
+            row[lane] = edge;
+        }
     }
-    e.map(|row| s.load(&row))
 }
