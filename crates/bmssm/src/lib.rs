@@ -4,4 +4,5 @@
 #![forbid(unsafe_code)]
 
 pub mod dense;
+pub mod general;
 pub mod image_space;

@@ -1,5 +1,6 @@
 //! Sixteen lanes of AVX-512.
 
+use super::path::{Path, SLICES, TRIM};
 use super::{Simd, Task};
 use std::arch::x86_64::*;
 
@@ -128,5 +129,59 @@ impl Simd for Avx512 {
         let to = &mut to[..16];
         // SAFETY: the token proves the features; the slice has 16 integers.
         unsafe { _mm512_storeu_epi32(to.as_mut_ptr().cast(), v) }
+    }
+
+    /// All eight steps at once: words are looked up by permuting a register.
+    #[inline(always)]
+    fn path_union(self, maps: [&[u64; SLICES]; 3], path: &Path) -> u64 {
+        // SAFETY: the token proves the features; each map has the eight words that are loaded.
+        unsafe {
+            let word = |map: &[u64; SLICES]| _mm512_loadu_epi64(map.as_ptr().cast());
+            let [a, b, c] = [word(maps[0]), word(maps[1]), word(maps[2])];
+            let slice = _mm256_setr_ps(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0);
+            let next = _mm256_setr_ps(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0);
+            let (low, high) = (_mm256_set1_ps(path.low), _mm256_set1_ps(path.high));
+            let left = _mm256_sub_ps(_mm256_max_ps(slice, low), low);
+            let right = _mm256_sub_ps(_mm256_min_ps(next, high), low);
+            let b = touched(b, left, right, path.start[0], path.slope[0]);
+            let c = touched(c, left, right, path.start[1], path.slope[1]);
+            let in_reach = _mm256_set1_ps((SLICES - 1) as f32);
+            let begun = _mm256_cmp_ps_mask::<_CMP_GT_OQ>(next, _mm256_min_ps(low, in_reach));
+            let not_over = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(slice, _mm256_max_ps(high, _mm256_setzero_ps()));
+            let met = _mm512_maskz_and_epi64(begun & not_over, a, _mm512_and_epi64(b, c));
+            _mm512_reduce_or_epi64(met).cast_unsigned()
+        }
+    }
+}
+
+/// The words of the slices between two positions in each of eight steps.
+///
+/// # Safety
+/// The processor has AVX-512 F and VL.
+#[inline(always)]
+unsafe fn touched(map: __m512i, left: __m256, right: __m256, start: f32, slope: f32) -> __m512i {
+    // SAFETY: the caller vouches for the instruction set; no memory is touched.
+    unsafe {
+        let (start, slope) = (_mm256_set1_ps(start), _mm256_set1_ps(slope));
+        let p = _mm256_add_ps(start, _mm256_mul_ps(slope, left));
+        let q = _mm256_add_ps(start, _mm256_mul_ps(slope, right));
+        let near = lookup(map, _mm256_min_ps(p, q));
+        let far = lookup(map, _mm256_sub_ps(_mm256_max_ps(p, q), _mm256_set1_ps(TRIM)));
+        _mm512_or_epi64(near, far)
+    }
+}
+
+/// The words of the slices of eight positions.
+///
+/// # Safety
+/// The processor has AVX-512 F and VL.
+#[inline(always)]
+unsafe fn lookup(map: __m512i, position: __m256) -> __m512i {
+    // SAFETY: the caller vouches for the instruction set; no memory is touched.
+    unsafe {
+        let last = _mm256_set1_ps((SLICES - 1) as f32);
+        let inside = _mm256_min_ps(_mm256_max_ps(position, _mm256_setzero_ps()), last);
+        let index = _mm512_cvtepi32_epi64(_mm256_cvttps_epi32(inside));
+        _mm512_permutexvar_epi64(index, map)
     }
 }

@@ -16,6 +16,7 @@ mod avx2;
 mod avx512;
 #[cfg(target_arch = "aarch64")]
 mod neon;
+pub mod path;
 mod portable;
 mod scalar;
 
@@ -94,6 +95,12 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// # Panics
     /// If the slice is shorter than `LANES`.
     fn store_u(self, v: Self::U, to: &mut [u32]);
+
+    /// The bits that a path through three maps meets; see [`path::Path`].
+    #[inline(always)]
+    fn path_union(self, maps: [&[u64; path::SLICES]; 3], path: &path::Path) -> u64 {
+        path::union(maps, path)
+    }
 }
 
 /// Work that is compiled once for each instruction set.

@@ -67,3 +67,63 @@ fn levels_go_by_name() {
     }
     assert!(Level::best().available());
 }
+
+mod paths {
+    use super::super::path::{Path, SLICES};
+    use super::*;
+    use proptest::prelude::*;
+
+    struct Union<'a>(&'a [[u64; SLICES]; 3], &'a Path);
+
+    impl Task for Union<'_> {
+        type Out = u64;
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> u64 {
+            let [a, b, c] = self.0;
+            s.path_union([a, b, c], self.1)
+        }
+    }
+
+    proptest! {
+        /// Every cell that the path passes contributes its bits, at every level; and where all words are
+        /// different single bits, nothing farther than a slice away does.
+        #[test]
+        fn the_union_holds_the_cells_of_the_path(
+            low in -0.01f32..8.0,
+            length in 0f32..8.0,
+            start in prop::array::uniform2(-0.5f32..8.5),
+            slope in prop::array::uniform2(-1f32..=1.0),
+            seed: u64,
+        ) {
+            let path = Path { low, high: (low + length).min(8.01), start, slope };
+            let mut state = seed;
+            let mut word = || {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                state ^ state >> 29
+            };
+            let maps = [0; 3].map(|_| [0; SLICES].map(|_| word()));
+            let slice = |p: f32| (p.max(0.0) as usize).min(SLICES - 1);
+            let mut passed = 0;
+            let mut near = 0;
+            for i in 0..=400 {
+                let along = path.low + (path.high - path.low) * i as f32 / 400.0;
+                let at = |k: usize| path.start[k] + path.slope[k] * (along - path.low);
+                // Positions within the trim of a boundary may count to either side.
+                let clear = |p: f32| (p - p.round()).abs() > 0.02;
+                if clear(along) && clear(at(0)) && clear(at(1)) {
+                    passed |= maps[0][slice(along)] & maps[1][slice(at(0))] & maps[2][slice(at(1))];
+                }
+                for (da, db, dc) in (0..27).map(|k| (k % 3, k / 3 % 3, k / 9)) {
+                    let by = |p: f32, d: i32| slice(p + d as f32 - 1.0);
+                    near |= maps[0][by(along, da)] & maps[1][by(at(0), db)] & maps[2][by(at(1), dc)];
+                }
+            }
+            let reference = Union(&maps, &path).run(Portable);
+            prop_assert_eq!(passed & !reference, 0);
+            prop_assert_eq!(reference & !near, 0);
+            for level in Level::here() {
+                prop_assert_eq!(level.run(Union(&maps, &path)), reference, "{:?}", level);
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Bit maps along a straight path: the one operation on words that instruction sets do differently.
+
+/// Slices of each map.
+pub const SLICES: usize = 8;
+
+/// A path through three maps of [`SLICES`] slices of unit thickness, along the axis on which it is longest. On that
+/// axis it rises from `low` to `high`; on each of the other two it starts at `start`
+/// and moves by `slope`, at most 1 either way, for each slice of the first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path {
+    /// Where it begins on the long axis.
+    pub low: f32,
+    /// Where it ends on the long axis.
+    pub high: f32,
+    /// Where it begins on the other axes.
+    pub start: [f32; 2],
+    /// How it moves on the other axes.
+    pub slope: [f32; 2],
+}
+
+/// By how much the far end of each step is shortened, so that rounding never makes a step touch
+/// three slices of a short axis. Whoever registers bits does so wider by more than this.
+pub const TRIM: f32 = 1.0 / 128.0;
+
+/// Union over the slices of the long axis of its word & (the at most two words touched on
+/// the second axis) & (those on the third).
+#[inline(always)]
+pub(super) fn union(maps: [&[u64; SLICES]; 3], path: &Path) -> u64 {
+    let first = clamped(path.low);
+    let last = clamped(path.high);
+    // Steps as bits and no counter: compilers turn a counted loop of so few steps into gathers.
+    let mut steps = (2u32 << last) - (1 << first);
+    let mut union = 0;
+    while steps != 0 {
+        let slice = steps.trailing_zeros() as usize & (SLICES - 1);
+        steps &= steps - 1;
+        let left = (slice as f32).max(path.low) - path.low;
+        let right = (slice as f32 + 1.0).min(path.high) - path.low;
+        let [a, b] = [0, 1];
+        union |= maps[0][slice]
+            & touched(maps[1], path.start[a] + path.slope[a] * left, path.start[a] + path.slope[a] * right)
+            & touched(maps[2], path.start[b] + path.slope[b] * left, path.start[b] + path.slope[b] * right);
+    }
+    union
+}
+
+#[inline(always)]
+fn touched(map: &[u64; SLICES], p: f32, q: f32) -> u64 {
+    let (near, far) = if p < q { (p, q) } else { (q, p) };
+    map[clamped(near)] | map[clamped(far - TRIM)]
+}
+
+/// The slice of a position, those outside counting to the nearest.
+#[inline(always)]
+fn clamped(position: f32) -> usize {
+    (position.max(0.0) as usize).min(SLICES - 1)
+}

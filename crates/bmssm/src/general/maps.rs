@@ -1,0 +1,117 @@
+//! The binary maps of one block: a bit per object in each slice (Skala 1993, §2, §5).
+
+use accel::grid::MARGIN;
+use accel::simd::Simd;
+use accel::simd::path::{Path, SLICES, TRIM};
+
+/// By how much objects are registered wider, in slices: more than the rounding of a walk within the
+/// block, and more than [`TRIM`].
+const LOCAL_MARGIN: f32 = 4.0 * TRIM;
+
+/// A box in the unit coordinates of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitBox {
+    /// Least coordinates.
+    pub min: [f32; 3],
+    /// Greatest coordinates.
+    pub max: [f32; 3],
+}
+
+impl UnitBox {
+    /// The box that contains nothing.
+    pub const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
+
+    /// The smallest box that contains both.
+    #[inline]
+    pub fn union(&self, other: &Self) -> Self {
+        let [a, b] = [self, other];
+        Self {
+            min: [0, 1, 2].map(|i| if a.min[i] < b.min[i] { a.min[i] } else { b.min[i] }),
+            max: [0, 1, 2].map(|i| if a.max[i] > b.max[i] { a.max[i] } else { b.max[i] }),
+        }
+    }
+
+    /// The box widened by the margin of [`accel::grid`].
+    #[inline]
+    pub fn widened(&self) -> Self {
+        let margin = MARGIN as f32;
+        Self { min: self.min.map(|v| v - margin), max: self.max.map(|v| v + margin) }
+    }
+}
+
+/// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be
+/// uniform (Skala 1993, abstract).
+#[derive(Clone, Debug)]
+#[repr(C, align(32))]
+pub struct BlockMaps {
+    /// `maps[0]` is R, `maps[1]` is S, `maps[2]` is T; one word for each slice.
+    maps: [[u64; SLICES]; 3],
+    origin: [f32; 3],
+    /// Slices per unit of length.
+    density: [f32; 3],
+}
+
+impl BlockMaps {
+    /// No objects.
+    pub const EMPTY: Self = Self { maps: [[0; SLICES]; 3], origin: [0.0; 3], density: [0.0; 3] };
+
+    /// Registers boxes by position; `bounds` contains them all.
+    pub fn new(bounds: &UnitBox, objects: impl IntoIterator<Item = UnitBox>) -> Self {
+        let UnitBox { min: origin, max } = bounds.widened();
+        let density = [0, 1, 2].map(|a| SLICES as f32 / (max[a] - origin[a]));
+        let mut maps = [[0; SLICES]; 3];
+        for (bit, object) in objects.into_iter().enumerate() {
+            let object = object.widened();
+            for axis in 0..3 {
+                let slice = |value: f32, margin: f32| {
+                    let position = (value - origin[axis]) * density[axis] + margin;
+                    position.clamp(0.0, (SLICES - 1) as f32) as usize
+                };
+                let (first, last) =
+                    (slice(object.min[axis], -LOCAL_MARGIN), slice(object.max[axis], LOCAL_MARGIN));
+                for word in &mut maps[axis][first..=last] {
+                    *word |= 1 << bit;
+                }
+            }
+        }
+        Self { maps, origin, density }
+    }
+
+    /// The candidates of the straight way between two points of the scene's unit coordinates: the union of R & S & T over the cells
+    /// that it passes.
+    ///
+    /// Along its dominant axis the way meets each slice once, and in that step at
+    /// most two slices of each other axis, so a step's candidates are
+    /// R & (S | S') & (T | T'), whichever axis is the dominant one.
+    #[inline(always)]
+    pub fn candidates<S: Simd>(&self, s: S, from: [f32; 3], to: [f32; 3]) -> u64 {
+        let (from, to) = (self.local(from), self.local(to));
+        let way = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+        let size = [way[0].abs(), way[1].abs(), way[2].abs()];
+        let (axis, b, c) = if size[0] >= size[1] && size[0] >= size[2] {
+            (0, 1, 2)
+        } else if size[1] >= size[2] {
+            (1, 2, 0)
+        } else {
+            (2, 0, 1)
+        };
+        let begin = if way[axis] < 0.0 { to } else { from };
+        let per_slice = if size[axis] > 0.0 { 1.0 / way[axis] } else { 0.0 };
+        let path = Path {
+            low: begin[axis],
+            high: begin[axis] + size[axis],
+            start: [begin[b], begin[c]],
+            slope: [way[b] * per_slice, way[c] * per_slice],
+        };
+        s.path_union([&self.maps[axis], &self.maps[b], &self.maps[c]], &path)
+    }
+
+    #[inline(always)]
+    fn local(&self, p: [f32; 3]) -> [f32; 3] {
+        [
+            (p[0] - self.origin[0]) * self.density[0],
+            (p[1] - self.origin[1]) * self.density[1],
+            (p[2] - self.origin[2]) * self.density[2],
+        ]
+    }
+}
