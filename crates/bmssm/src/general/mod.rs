@@ -155,3 +155,6 @@ impl<O: Objects, C: Count> Task for Counted<'_, O, C> {
         self.count
     }
 }
+
+#[cfg(test)]
+mod tests;

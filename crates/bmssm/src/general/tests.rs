@@ -1,0 +1,168 @@
+use super::*;
+use accel::baseline::Brute;
+use accel::{Accel, Builder, Geometry, KernelId, Mesh, Need, RaySet, Scene, Vec3, View, WithObjects};
+use proptest::prelude::*;
+
+fn scene(geometry: Geometry) -> Scene {
+    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
+    Scene { id: "test".into(), geometry, view }
+}
+
+/// A deterministic source of numbers from −1 to 1.
+fn numbers(mut state: u64) -> impl FnMut() -> f32 {
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f32 / (1 << 23) as f32 - 1.0
+    }
+}
+
+/// Triangles of mixed size, a few of them huge, thin or without area.
+fn triangles(seed: u64, count: u32, scale: f32, offset: Vec3) -> Geometry {
+    let mut number = numbers(seed);
+    let mut point = |size: f32| Vec3::new(number(), number(), number()) * size;
+    let mut mesh = Mesh::default();
+    for i in 0..count {
+        let size = [0.05, 0.05, 0.05, 0.3, 0.0, 1.5][(i % 97).min(5) as usize];
+        let center = point(1.0);
+        let corners = [center, center + point(size), center + point(size) * Vec3::new(1.0, 1.0, 0.01)];
+        mesh.positions.extend(corners.map(|corner| corner * scale + offset));
+        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    Geometry::Triangles(mesh)
+}
+
+/// Rays from in and around the scene, many along axes and with negative zeros.
+fn rays(seed: u64, count: usize, scale: f32, offset: Vec3) -> Vec<Ray> {
+    let mut number = numbers(seed ^ 0x5555);
+    let mut point = |size: f32| Vec3::new(number(), number(), number()) * size;
+    (0..count)
+        .map(|i| {
+            let origin = match i % 4 {
+                0 => point(3.0),
+                1 => Vec3::new(-2.0, 0.0, 0.25),
+                2 => (point(1.0) * 4.0).round() / 4.0,
+                _ => point(1.0),
+            };
+            let direction = match i % 5 {
+                0 => Vec3::new(1.0, -0.0, 0.0),
+                1 => Vec3::new(0.0, 1e-30, -1.0),
+                2 => Vec3::new(-1.0, 1.0, -0.0),
+                _ => point(1.0),
+            };
+            let t_max = if i % 7 == 0 { 0.8 } else { f32::INFINITY };
+            Ray { t_max, ..Ray::new(origin * scale + offset, direction * scale) }
+        })
+        .collect()
+}
+
+struct Differences<'a>(&'a [Ray], &'a [Option<Hit>], Level);
+
+impl<'s> WithObjects<'s> for Differences<'_> {
+    type Out = usize;
+    fn objects<O: Objects + 's>(self, objects: O) -> usize {
+        let Self(rays, reference, simd) = self;
+        let maps = General::new(&objects, simd);
+        let mut hits = vec![None; rays.len()];
+        maps.closest(rays, &mut hits);
+        let mut occluded = vec![false; rays.len()];
+        maps.occluded(rays, &mut occluded);
+        let same = |(i, hit): (usize, &Option<Hit>)| {
+            let bits = match (hit, &reference[i]) {
+                (Some(a), Some(b)) => a.same_bits(b),
+                (None, None) => true,
+                _ => false,
+            };
+            bits && occluded[i] == hit.is_some()
+        };
+        hits.iter().enumerate().filter(|pair| !same(*pair)).count()
+    }
+}
+
+fn assert_no_differences(geometry: Geometry, rays: &[Ray]) -> usize {
+    let scene = scene(geometry);
+    let mut hits = 0;
+    for kernel in KernelId::ALL {
+        let brute = Brute::new(kernel).build(&scene, &Need::GENERAL).unwrap();
+        let mut reference = vec![None; rays.len()];
+        brute.trace(&RaySet::List(rays.to_vec()), &mut reference);
+        hits = reference.iter().flatten().count();
+        for simd in Level::here() {
+            let differences = scene.with_objects(kernel, Differences(rays, &reference, simd));
+            assert_eq!(differences, 0, "{kernel} {simd:?}");
+        }
+    }
+    hits
+}
+
+#[test]
+fn nothing_is_lost_in_scenes_of_several_levels() {
+    let hits = assert_no_differences(triangles(1, 9000, 1.0, Vec3::ZERO), &rays(1, 1500, 1.0, Vec3::ZERO));
+    assert!(hits > 500);
+}
+
+#[test]
+fn nothing_is_lost_at_any_scale_and_offset() {
+    for (scale, offset) in [
+        (2f32.powi(-60), Vec3::ZERO),
+        (2f32.powi(60), Vec3::ZERO),
+        (2.0, Vec3::new(148_376.0, 1234.0, -223_423.0)),
+        (1.0, Vec3::splat(1e7)),
+    ] {
+        assert_no_differences(triangles(2, 700, scale, offset), &rays(2, 400, scale, offset));
+    }
+}
+
+#[test]
+fn flat_empty_and_single_scenes_are_served() {
+    let flat = |geometry: Geometry| match geometry {
+        Geometry::Triangles(mut mesh) => {
+            mesh.positions.iter_mut().for_each(|p| p.y = 0.25);
+            Geometry::Triangles(mesh)
+        }
+        other => other,
+    };
+    let rays = rays(3, 600, 1.0, Vec3::ZERO);
+    assert!(assert_no_differences(flat(triangles(3, 500, 1.0, Vec3::ZERO)), &rays) > 50);
+    assert_eq!(assert_no_differences(Geometry::Triangles(Mesh::default()), &rays), 0);
+    assert_no_differences(triangles(4, 1, 1.0, Vec3::ZERO), &rays);
+    let repeated = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]; 300] };
+    assert_no_differences(Geometry::Triangles(repeated), &rays);
+}
+
+#[test]
+fn boxes_are_objects_too() {
+    let mut number = numbers(9);
+    let mut boxes = Vec::new();
+    for _ in 0..500 {
+        let center = Vec3::new(number(), number(), number());
+        boxes.push(Aabb { min: center - 0.05, max: center + 0.05 });
+    }
+    assert!(assert_no_differences(Geometry::Boxes(boxes), &rays(9, 800, 1.0, Vec3::ZERO)) > 100);
+}
+
+#[test]
+fn the_tree_holds_every_object_once_and_full_blocks() {
+    struct Slots;
+    impl<'s> WithObjects<'s> for Slots {
+        type Out = (Vec<u32>, usize);
+        fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+            let maps = General::new(&objects, Level::Portable);
+            let slots = (0..maps.maps.len() * BLOCK).map(|slot| maps.objects.object(slot));
+            (slots.filter(|object| *object != EMPTY_SLOT).collect(), maps.maps.len())
+        }
+    }
+    let scene = scene(triangles(5, 20_000, 1.0, Vec3::ZERO));
+    let (mut objects, blocks) = scene.with_objects(KernelId::MollerTrumbore, Slots);
+    objects.sort_unstable();
+    assert!(objects.iter().copied().eq(0..20_000));
+    assert!(blocks <= 20_000 / BLOCK + 20, "{blocks} blocks");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn small_scenes_lose_nothing(seed: u64, count in 1u32..400) {
+        assert_no_differences(triangles(seed, count, 1.0, Vec3::ZERO), &rays(seed, 200, 1.0, Vec3::ZERO));
+    }
+}
