@@ -1,6 +1,6 @@
 use super::*;
 use accel::baseline::Brute;
-use accel::{Accel, Builder, Geometry, KernelId, Mesh, Need, RaySet, Scene, Vec3, View, WithObjects};
+use accel::{Builder, Geometry, KernelId, Mesh, Need, RaySet, Scene, Vec3, View, WithObjects};
 use proptest::prelude::*;
 
 fn scene(geometry: Geometry) -> Scene {

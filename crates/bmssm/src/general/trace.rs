@@ -57,12 +57,35 @@ const IS_BLOCK: u32 = 1 << 31;
 /// Enough for 64 children on each of more levels than 2³² objects have.
 const DEPTH: usize = 64 * 8;
 
-/// What waits to be visited, kept from ray to ray.
-pub(super) struct Stack([Waiting; DEPTH]);
+/// What waits to be visited, the nearest on top; kept from ray to ray.
+pub(super) struct Stack {
+    entries: [Waiting; DEPTH],
+    len: usize,
+}
 
 impl Default for Stack {
     fn default() -> Self {
-        Self([Waiting::default(); DEPTH])
+        Self { entries: [Waiting::default(); DEPTH], len: 0 }
+    }
+}
+
+impl Stack {
+    #[inline(always)]
+    fn pop(&mut self) -> Option<Waiting> {
+        self.len = self.len.checked_sub(1)?;
+        Some(self.entries[self.len])
+    }
+
+    /// Puts an entry among those from `base` on, which stay sorted.
+    #[inline(always)]
+    fn insert(&mut self, base: usize, entry: Waiting) {
+        let mut place = self.len;
+        while place > base && self.entries[place - 1].enter < entry.enter {
+            self.entries[place] = self.entries[place - 1];
+            place -= 1;
+        }
+        self.entries[place] = entry;
+        self.len += 1;
     }
 }
 
@@ -86,12 +109,9 @@ impl<O: Objects> General<O> {
         let way = Way::new(&segment);
         let prepared = self.objects.one(ray);
         let mut limit = 1.0 + 4.0 * accel::grid::MARGIN as f32;
-        let stack = &mut stack.0;
-        stack[0] = Waiting { enter: 0.0, exit: 1.0, what: 0 };
-        let mut waiting = 1;
-        while waiting > 0 {
-            waiting -= 1;
-            let Waiting { enter, exit, what } = stack[waiting];
+        stack.len = 0;
+        stack.insert(0, Waiting { enter: 0.0, exit: 1.0, what: 0 });
+        while let Some(Waiting { enter, exit, what }) = stack.pop() {
             if enter > limit {
                 continue;
             }
@@ -122,7 +142,7 @@ impl<O: Objects> General<O> {
                 let node = &self.tree.nodes[what as usize];
                 count.cells(1);
                 let candidates = node.maps.candidates(s, from, to);
-                waiting = self.push(s, node, candidates, &way, limit, stack, waiting);
+                self.push(s, node, candidates, &way, limit, stack);
             }
         }
         best
@@ -137,11 +157,10 @@ impl<O: Objects> General<O> {
         mut candidates: u64,
         way: &Way,
         limit: f32,
-        stack: &mut [Waiting; DEPTH],
-        base: usize,
-    ) -> usize {
+        stack: &mut Stack,
+    ) {
         let lanes_mask = u64::MAX >> (64 - S::LANES);
-        let mut top = base;
+        let base = stack.len;
         while candidates != 0 {
             let first = candidates.trailing_zeros() as usize / S::LANES * S::LANES;
             let wanted = (candidates >> first & lanes_mask) as u32;
@@ -172,17 +191,9 @@ impl<O: Objects> General<O> {
                 } else {
                     node.first_node + child - node.blocks
                 };
-                let entry = Waiting { enter: enters[lane], exit: exits[lane], what };
-                let mut place = top;
-                while place > base && stack[place - 1].enter < entry.enter {
-                    stack[place] = stack[place - 1];
-                    place -= 1;
-                }
-                stack[place] = entry;
-                top += 1;
+                stack.insert(base, Waiting { enter: enters[lane], exit: exits[lane], what });
             }
         }
-        top
     }
 }
 
