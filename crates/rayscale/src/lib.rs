@@ -5,5 +5,6 @@
 pub mod cmd;
 pub mod near;
 pub mod output;
+pub mod rays;
 pub mod scene;
 pub mod units;

@@ -10,7 +10,7 @@ pub fn framing(geometry: &Geometry) -> View {
     let center = (min + max) * 0.5;
     let radius = (0.5 * (max - min)).length();
     // A scene of one point, or one too small beside its offset, still needs a distance.
-    let radius = radius.max(center.length() * 1e-3).max(1e-30);
+    let radius = radius.max(center.length() * 1e-6).max(1e-30);
     let fov_y_degrees = 45.0;
     // A sphere fills the view from a distance of radius / sin(fov / 2).
     let distance = radius / libm::sin(f64::from(fov_y_degrees).to_radians() * 0.5);
