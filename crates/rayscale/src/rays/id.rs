@@ -1,6 +1,6 @@
 //! The ray sets by name.
 
-use crate::scene::near;
+use crate::near::near;
 use std::fmt;
 use std::str::FromStr;
 

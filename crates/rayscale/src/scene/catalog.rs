@@ -2,6 +2,7 @@
 
 use super::SceneError;
 use super::definition::Definition;
+use crate::near::near;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
@@ -120,17 +121,6 @@ pub fn definition(id: &str) -> Result<Definition, SceneError> {
 pub fn unknown(id: &str) -> SceneError {
     let all = list();
     SceneError::Unknown { id: id.to_owned(), near: near(id, all.iter().map(|info| info.id.as_str())) }
-}
-
-/// The three names most like `text`, nearest first; fewer where few are alike.
-pub fn near<'a>(text: &str, names: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let text = text.to_lowercase();
-    let mut near: Vec<(f64, &str)> = names
-        .map(|name| (strsim::jaro_winkler(&text, name), name))
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .collect();
-    near.sort_by(|a, b| b.0.total_cmp(&a.0));
-    near.into_iter().take(3).map(|(_, name)| name.to_owned()).collect()
 }
 
 impl Entry {

@@ -24,7 +24,7 @@ mod split;
 mod tests;
 mod view;
 
-pub use catalog::{SceneInfo, describe, list, near};
+pub use catalog::{SceneInfo, describe, list};
 pub use checksum::checksum;
 pub use error::SceneError;
 pub use export::{export_obj, write_obj};
