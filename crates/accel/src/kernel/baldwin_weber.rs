@@ -2,7 +2,7 @@
 //! Journal of Computer Graphics Techniques 5(3), 2016: each triangle stores the affine map that takes
 //! it to the unit triangle, so that a test is a few products and one division.
 
-use super::{Corners, Kernel, KernelId};
+use super::{Corners, Kernel, KernelId, dot3};
 use crate::packet::{Lanes, Packet, Vec3Lanes};
 use crate::simd::{Row, Simd};
 use crate::{Ray, Vec3};
@@ -46,16 +46,15 @@ impl Kernel for BaldwinWeber {
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
         let rows = &group[..12];
-        let load = |k: usize| s.load(&rows[k].0[at..]);
-        let map = [0, 4, 8].map(|k| ([load(k), load(k + 1), load(k + 2)], load(k + 3)));
+        let map = [load_row(s, &rows[..4], at), load_row(s, &rows[4..8], at), load_row(s, &rows[8..], at)];
         test(s, &Packet::splat(s, ray), map, s.splat(t_max))
     }
 
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
         let rows = &group[..12];
-        let splat = |k: usize| s.splat(rows[k].0[lane]);
-        let map = [0, 4, 8].map(|k| ([splat(k), splat(k + 1), splat(k + 2)], splat(k + 3)));
+        let map =
+            [splat_row(s, &rows[..4], lane), splat_row(s, &rows[4..8], lane), splat_row(s, &rows[8..], lane)];
         test(s, rays, map, t_max)
     }
 }
@@ -75,19 +74,31 @@ fn map_of([a, b, c]: &Corners) -> [[f64; 4]; 3] {
     rows.map(|row| [row.x, row.y, row.z, -row.dot(a)])
 }
 
+#[inline(always)]
+fn load_row<S: Simd>(s: S, rows: &[Row], at: usize) -> MapRow<S> {
+    let [x, y, z] = [s.load(&rows[0].0[at..]), s.load(&rows[1].0[at..]), s.load(&rows[2].0[at..])];
+    ([x, y, z], s.load(&rows[3].0[at..]))
+}
+
+#[inline(always)]
+fn splat_row<S: Simd>(s: S, rows: &[Row], lane: usize) -> MapRow<S> {
+    let [x, y, z] = [s.splat(rows[0].0[lane]), s.splat(rows[1].0[lane]), s.splat(rows[2].0[lane])];
+    ([x, y, z], s.splat(rows[3].0[lane]))
+}
+
 /// A ray in the plane has a zero slope: t is then infinite or NaN, and so are u and v.
 #[inline(always)]
 fn test<S: Simd>(s: S, ray: &Packet<S>, [to_u, to_v, to_height]: [MapRow<S>; 3], t_max: S::F) -> Lanes<S> {
     let (zero, one) = (s.splat(0.0), s.splat(1.0));
-    let dot = |a: &Vec3Lanes<S>, b: &Vec3Lanes<S>| {
-        s.add(s.add(s.mul(a[0], b[0]), s.mul(a[1], b[1])), s.mul(a[2], b[2]))
-    };
-    let height = s.add(dot(&to_height.0, &ray.origin), to_height.1);
-    let slope = dot(&to_height.0, &ray.direction);
+    let height = s.add(dot3(s, to_height.0, ray.origin), to_height.1);
+    let slope = dot3(s, to_height.0, ray.direction);
     let t = s.div(s.sub(zero, height), slope);
-    let at = [0, 1, 2].map(|axis| s.add(ray.origin[axis], s.mul(t, ray.direction[axis])));
-    let u = s.add(dot(&to_u.0, &at), to_u.1);
-    let v = s.add(dot(&to_v.0, &at), to_v.1);
+    let [x, y, z] = ray.direction;
+    let along = [s.mul(t, x), s.mul(t, y), s.mul(t, z)];
+    let [x, y, z] = ray.origin;
+    let at = [s.add(x, along[0]), s.add(y, along[1]), s.add(z, along[2])];
+    let u = s.add(dot3(s, to_u.0, at), to_u.1);
+    let v = s.add(dot3(s, to_v.0, at), to_v.1);
     let inside = s.and(s.and(s.le(zero, u), s.le(zero, v)), s.le(s.add(u, v), one));
     let in_range = s.and(s.le(ray.t_min, t), s.le(t, t_max));
     Lanes { hit: s.and(inside, in_range), t, u, v }

@@ -1,22 +1,15 @@
-//! Lanes of `f32` read as `f64`.
+//! Lanes of `f32` computed in `f64`.
 //!
-//! [`Simd`] has no lanes of `f64`. Plain loops over rows in memory serve: compiled for
+//! [`crate::simd::Simd`] has no lanes of `f64`. Plain loops over rows in memory serve: compiled for
 //! the instruction set of the task, they become vectors.
 
-use crate::packet::{Packet, Vec3Lanes};
-use crate::simd::{ROW, Simd};
+use super::Corners;
+use crate::Ray;
+use crate::Vec3;
+use crate::packet::Packet;
+use crate::simd::{ROW, Row, Simd};
 
-/// Three coordinates of a row of vectors.
-type Rows3 = [[f32; ROW]; 3];
-
-/// A test's inputs in memory.
-pub(super) struct Inputs {
-    origin: Rows3,
-    direction: Rows3,
-    corners: [Rows3; 3],
-}
-
-/// The differences and products of Möller and Trumbore's test for one lane.
+/// The differences and products of Möller and Trumbore's test.
 #[derive(Clone, Copy)]
 pub(super) struct Products {
     /// Edges from the first corner.
@@ -31,41 +24,16 @@ pub(super) struct Products {
     pub scaled: [f64; 3],
 }
 
-impl Inputs {
+impl Products {
     #[inline(always)]
-    pub(super) fn of<S: Simd>(s: S, ray: &Packet<S>, corners: &[Vec3Lanes<S>; 3]) -> Self {
-        let rows = |v: &Vec3Lanes<S>| {
-            let mut rows = [[0.0; ROW]; 3];
-            for (row, lanes) in rows.iter_mut().zip(v) {
-                s.store(*lanes, row);
-            }
-            rows
-        };
-        Self {
-            origin: rows(&ray.origin),
-            direction: rows(&ray.direction),
-            corners: [rows(&corners[0]), rows(&corners[1]), rows(&corners[2])],
-        }
-    }
-
-    /// The corners of one lane.
-    #[inline(always)]
-    pub(super) fn corners(&self, lane: usize) -> [[f32; 3]; 3] {
-        [0, 1, 2].map(|corner| [0, 1, 2].map(|axis| self.corners[corner][axis][lane]))
-    }
-
-    /// One lane in `f64`.
-    #[inline(always)]
-    pub(super) fn products(&self, lane: usize) -> Products {
-        let at =
-            |rows: &Rows3| [f64::from(rows[0][lane]), f64::from(rows[1][lane]), f64::from(rows[2][lane])];
-        let [a, b, c] = [at(&self.corners[0]), at(&self.corners[1]), at(&self.corners[2])];
-        let direction = at(&self.direction);
+    pub(super) fn of(ray: &Ray, corners: &Corners) -> Self {
+        let (a, b, c) = (wide(corners[0]), wide(corners[1]), wide(corners[2]));
+        let direction = wide(ray.direction);
         let (edge1, edge2) = (sub(b, a), sub(c, a));
-        let from_a = sub(at(&self.origin), a);
+        let from_a = sub(wide(ray.origin), a);
         let p = cross(direction, edge2);
         let q = cross(from_a, edge1);
-        Products {
+        Self {
             edges: [edge1, edge2],
             from_a,
             direction,
@@ -75,17 +43,125 @@ impl Inputs {
     }
 }
 
+/// The rays of a packet in memory.
+#[derive(Clone, Copy, Debug)]
+pub struct RayRows {
+    rows: [[f32; ROW]; 8],
+}
+
+impl RayRows {
+    #[inline(always)]
+    pub(super) fn of<S: Simd>(s: S, rays: &Packet<S>) -> Self {
+        let mut rows = [[0.0; ROW]; 8];
+        s.store(rays.origin[0], &mut rows[0]);
+        s.store(rays.origin[1], &mut rows[1]);
+        s.store(rays.origin[2], &mut rows[2]);
+        s.store(rays.direction[0], &mut rows[3]);
+        s.store(rays.direction[1], &mut rows[4]);
+        s.store(rays.direction[2], &mut rows[5]);
+        s.store(rays.t_min, &mut rows[6]);
+        s.store(rays.t_max, &mut rows[7]);
+        Self { rows }
+    }
+
+    /// One lane's ray.
+    #[inline(always)]
+    pub(super) fn ray(&self, lane: usize) -> Ray {
+        let rows = &self.rows;
+        Ray {
+            origin: Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane]),
+            direction: Vec3::new(rows[3][lane], rows[4][lane], rows[5][lane]),
+            t_min: rows[6][lane],
+            t_max: rows[7][lane],
+        }
+    }
+}
+
+/// One ray against the triangles from a lane on.
+#[derive(Clone, Copy)]
+pub(super) struct OneRay<'a> {
+    ray: &'a Ray,
+    rows: [&'a [f32]; 9],
+}
+
+/// Rays against one triangle.
+#[derive(Clone, Copy)]
+pub(super) struct OneTriangle<'a> {
+    rays: &'a RayRows,
+    corners: Corners,
+}
+
+/// The ray and the triangle that meet in each lane.
+pub(super) trait Pairs {
+    fn ray(&self, lane: usize) -> Ray;
+    fn corners(&self, lane: usize) -> Corners;
+}
+
+impl<'a> OneRay<'a> {
+    /// The triangles in `lanes` lanes of a group from lane `at` on.
+    #[inline(always)]
+    pub(super) fn new(ray: &'a Ray, group: &'a [Row], at: usize, lanes: usize) -> Self {
+        let mut rows: [&[f32]; 9] = [&[]; 9];
+        for (row, packed) in rows.iter_mut().zip(&group[..9]) {
+            *row = &packed.0[at..at + lanes];
+        }
+        Self { ray, rows }
+    }
+}
+
+impl<'a> OneTriangle<'a> {
+    /// The triangle in lane `lane` of a group.
+    #[inline(always)]
+    pub(super) fn new(rays: &'a RayRows, group: &[Row], lane: usize) -> Self {
+        let g = &group[..9];
+        let corner = |k: usize| Vec3::new(g[k].0[lane], g[k + 1].0[lane], g[k + 2].0[lane]);
+        Self { rays, corners: [corner(0), corner(3), corner(6)] }
+    }
+}
+
+impl Pairs for OneRay<'_> {
+    #[inline(always)]
+    fn ray(&self, _: usize) -> Ray {
+        *self.ray
+    }
+    #[inline(always)]
+    fn corners(&self, lane: usize) -> Corners {
+        let [ax, ay, az, bx, by, bz, cx, cy, cz] = self.rows;
+        [
+            Vec3::new(ax[lane], ay[lane], az[lane]),
+            Vec3::new(bx[lane], by[lane], bz[lane]),
+            Vec3::new(cx[lane], cy[lane], cz[lane]),
+        ]
+    }
+}
+
+impl Pairs for OneTriangle<'_> {
+    #[inline(always)]
+    fn ray(&self, lane: usize) -> Ray {
+        self.rays.ray(lane)
+    }
+    #[inline(always)]
+    fn corners(&self, _: usize) -> Corners {
+        self.corners
+    }
+}
+
 #[inline(always)]
-pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+fn wide(v: Vec3) -> [f64; 3] {
+    [f64::from(v.x), f64::from(v.y), f64::from(v.z)]
+}
+
+#[inline(always)]
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline(always)]
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -2,9 +2,9 @@
 //!
 //! The bounds are those of [`super::reject`] with ε = 2^-53; products of three `f32` neither under- nor overflow.
 
-use super::{by_integers, corners_of};
-use crate::kernel::wide::{Inputs, Products};
-use crate::packet::{Lanes, Packet, Vec3Lanes};
+use super::by_integers;
+use crate::kernel::wide::{Pairs, Products};
+use crate::packet::Lanes;
 use crate::simd::{ROW, Simd};
 
 const BOUND: f64 = 64.0 * f64::EPSILON / 2.0;
@@ -12,91 +12,110 @@ const BOUND: f64 = 64.0 * f64::EPSILON / 2.0;
 /// Up to so many lanes are decided one by one.
 const FEW: u32 = 2;
 
-/// What is known of a lane.
-#[derive(Clone, Copy)]
-struct Decision {
+/// Decisions in memory.
+struct Decisions {
     /// 0: missed, 1: hit, 2: neither is certain.
-    state: f32,
-    t: f32,
-    u: f32,
-    v: f32,
+    state: [f32; ROW],
+    t: [f32; ROW],
+    u: [f32; ROW],
+    v: [f32; ROW],
 }
 
 /// Decides the lanes `open`; the others hold no hit.
 #[inline(always)]
-pub(super) fn decide<S: Simd>(s: S, ray: &Packet<S>, corners: &[Vec3Lanes<S>; 3], open: u32) -> Lanes<S> {
-    let inputs = Inputs::of(s, ray, corners);
-    let mut t_range = [[0.0; ROW]; 2];
-    s.store(ray.t_min, &mut t_range[0]);
-    s.store(ray.t_max, &mut t_range[1]);
-    let mut state = [0.0; ROW];
-    let mut rows = [[0.0; ROW]; 3];
-    let mut one = |lane: usize| {
-        let decision = of_lane(&inputs.products(lane), t_range[0][lane], t_range[1][lane]);
-        state[lane] = decision.state;
-        (rows[0][lane], rows[1][lane], rows[2][lane]) = (decision.t, decision.u, decision.v);
-    };
+pub(super) fn decide<S: Simd>(s: S, pairs: &impl Pairs, open: u32) -> Lanes<S> {
+    let mut rows = Decisions { state: [0.0; ROW], t: [0.0; ROW], u: [0.0; ROW], v: [0.0; ROW] };
     if open.count_ones() <= FEW {
         let mut left = open;
         while left != 0 {
-            one(left.trailing_zeros() as usize);
+            let lane = left.trailing_zeros() as usize % ROW;
             left &= left - 1;
+            rows.decide(pairs, lane);
         }
     } else {
         for lane in 0..S::LANES {
-            one(lane);
+            rows.decide(pairs, lane);
         }
     }
-    let known = s.load(&state);
-    let mut unsure = s.bits(s.lt(s.splat(1.5), known)) & open;
+    let known = s.load(&rows.state);
+    let unsure = s.bits(s.lt(s.splat(1.5), known)) & open;
     let mut hits = s.bits(s.eq(known, s.splat(1.0))) & open;
-    while unsure != 0 {
-        let lane = unsure.trailing_zeros() as usize;
-        unsure &= unsure - 1;
-        if let Some(found) = by_integers(&ray.ray(s, lane), &corners_of(inputs.corners(lane))) {
-            hits |= 1 << lane;
-            (rows[0][lane], rows[1][lane], rows[2][lane]) = found.into();
-        }
+    if unsure != 0 {
+        hits |= rows.settle(pairs, unsure);
     }
-    let [t, u, v] = rows.map(|row| s.load(&row));
-    Lanes { hit: s.mask(hits), t, u, v }
+    Lanes { hit: s.mask(hits), t: s.load(&rows.t), u: s.load(&rows.u), v: s.load(&rows.v) }
 }
 
-/// Without branches, so that loops over lanes become vectors.
-#[inline(always)]
-fn of_lane(products: &Products, t_min: f32, t_max: f32) -> Decision {
-    let Products { edges, from_a, direction, det, scaled: [u, v, t] } = *products;
-    let largest = |v: [f64; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
-    let length = largest(edges[0]).max(largest(edges[1]));
-    let size = from_a[0].abs() + from_a[1].abs() + from_a[2].abs() + length;
-    let area = length * size * BOUND;
-    let error = area * largest(direction);
-    let t_error = area * length;
-    let w = det - u - v;
-    let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
-    let missed = (error < greatest) & (least < -error);
-    let inside = (error < least) | (greatest < -error);
+impl Decisions {
+    /// Without branches, so that loops over lanes become vectors.
+    #[inline(always)]
+    fn decide(&mut self, pairs: &impl Pairs, lane: usize) {
+        let ray = pairs.ray(lane);
+        let products = Products::of(&ray, &pairs.corners(lane));
+        let Products { edges, from_a, direction, det, scaled: [u, v, t] } = products;
+        let length = greater(largest(edges[0]), largest(edges[1]));
+        let size = from_a[0].abs() + from_a[1].abs() + from_a[2].abs() + length;
+        let area = length * size * BOUND;
+        let error = area * largest(direction);
+        let t_error = area * length;
+        let w = det - u - v;
+        let (least, greatest) = (least3(u, v, w), greatest3(u, v, w));
+        let missed = (error < greatest) & (least < -error);
+        let inside = (error < least) | (greatest < -error);
 
-    let quotient = t / det;
-    // First-order errors of numerator and denominator; the factor covers the rest, the last term the roundings here.
-    let off = (t_error + quotient.abs() * error) / (det.abs() - error) * 1.001
-        + quotient.abs() * (4.0 * f64::EPSILON);
-    // Adding zero makes −0 a +0.
-    let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
-    let one_float = (low == high) & (error < det.abs());
-    // At an end of the range, the rounded t doesn't tell on which side the true one lies.
-    let clear = (low != t_min) & (low != t_max);
-    let hit = inside & one_float & clear;
-    Decision {
-        state: if hit {
-            1.0
-        } else if missed {
-            0.0
-        } else {
-            2.0
-        },
-        t: low,
-        u: (u / det) as f32,
-        v: (v / det) as f32,
+        let reciprocal = 1.0 / det;
+        let quotient = t * reciprocal;
+        // |t/d − t'/d'| ≤ (error of t' + |t'/d'|·error of d')/|d| with |d| ≥ |d'| − error. The factor makes up for
+        // dividing by |d'|, for `firm` holds below; the last term for the roundings of the quotient.
+        let off = (t_error + quotient.abs() * error) * reciprocal.abs() * 1.001
+            + quotient.abs() * (4.0 * f64::EPSILON);
+        let firm = error * 2048.0 < det.abs();
+        // Adding zero makes −0 a +0.
+        let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
+        // At an end of the range, the rounded t doesn't tell on which side the true one lies.
+        let clear = (low == high) & (low != ray.t_min) & (low != ray.t_max);
+        let hit = inside & firm & clear;
+        self.state[lane] = if hit { 1.0 } else { 2.0 };
+        self.state[lane] = if missed { 0.0 } else { self.state[lane] };
+        self.t[lane] = low;
+        self.u[lane] = (u * reciprocal) as f32;
+        self.v[lane] = (v * reciprocal) as f32;
     }
+
+    /// Decides the lanes `unsure` by integers, and tells which are hit.
+    #[cold]
+    fn settle(&mut self, pairs: &impl Pairs, mut unsure: u32) -> u32 {
+        let mut hits = 0;
+        while unsure != 0 {
+            let lane = unsure.trailing_zeros() as usize;
+            unsure &= unsure - 1;
+            if let Some(found) = by_integers(&pairs.ray(lane), &pairs.corners(lane)) {
+                hits |= 1 << lane;
+                (self.t[lane], self.u[lane], self.v[lane]) = found.into();
+            }
+        }
+        hits
+    }
+}
+
+// As comparisons, for `f64::min` and `max` treat NaN at the cost of more instructions.
+
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn greatest3(a: f64, b: f64, c: f64) -> f64 {
+    greater(greater(a, b), c)
+}
+
+#[inline(always)]
+fn least3(a: f64, b: f64, c: f64) -> f64 {
+    -greatest3(-a, -b, -c)
+}
+
+#[inline(always)]
+fn largest(v: [f64; 3]) -> f64 {
+    greatest3(v[0].abs(), v[1].abs(), v[2].abs())
 }

@@ -21,10 +21,11 @@ mod reject;
 #[cfg(test)]
 mod tests;
 
+use super::wide::{OneRay, OneTriangle, RayRows};
 use super::{Corners, Kernel, KernelId, load_corners, splat_corners};
-use crate::packet::{Lanes, Packet, Vec3Lanes};
+use crate::Ray;
+use crate::packet::{Lanes, Packet};
 use crate::simd::{Row, Scalar, Simd};
-use crate::{Ray, Vec3};
 use std::cmp::Ordering;
 
 /// The exact test: see the [module](self) and [`crate::exact`] for what counts as a hit.
@@ -32,18 +33,19 @@ use std::cmp::Ordering;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
 
-/// A ray and the size of its direction's largest component; see [`reject::span`].
-#[derive(Clone, Copy, Debug)]
+/// A ray and the size of its direction.
+#[derive(Clone, Copy)]
 pub struct Spanned {
     ray: Ray,
-    span: f32,
+    span: reject::Span<Scalar>,
 }
 
 /// [`Spanned`] in lanes.
 #[derive(Clone, Copy)]
 pub struct SpannedLanes<S: Simd> {
     rays: Packet<S>,
-    span: S::F,
+    span: reject::Span<S>,
+    rows: RayRows,
 }
 
 impl Kernel for Exact {
@@ -54,23 +56,33 @@ impl Kernel for Exact {
 
     #[inline(always)]
     fn one(ray: &Ray) -> Spanned {
-        Spanned { ray: *ray, span: reject::span(Scalar, &ray.direction.to_array()) }
+        Spanned { ray: *ray, span: reject::Span::of(Scalar, ray.direction.to_array()) }
     }
 
     #[inline(always)]
     fn many<S: Simd>(s: S, rays: &Packet<S>) -> SpannedLanes<S> {
-        SpannedLanes { rays: *rays, span: reject::span(s, &rays.direction) }
+        SpannedLanes { rays: *rays, span: reject::Span::of(s, rays.direction), rows: RayRows::of(s, rays) }
     }
 
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Spanned, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
-        let rays = SpannedLanes { rays: Packet::splat(s, &ray.ray), span: s.splat(ray.span) };
-        test(s, &rays, &load_corners(s, group, at), s.splat(t_max))
+        let rays = Packet::splat(s, &ray.ray);
+        let open = reject::open(s, &rays, &ray.span.splat(s), load_corners(s, group, at), s.splat(t_max));
+        if open == 0 {
+            return nothing(s);
+        }
+        let pairs = OneRay::new(&ray.ray, group, at, S::LANES);
+        in_range(s, decide::decide(s, &pairs, open), &rays, s.splat(t_max))
     }
 
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        test(s, rays, &splat_corners(s, group, lane), t_max)
+        let open = reject::open(s, &rays.rays, &rays.span, splat_corners(s, group, lane), t_max);
+        if open == 0 {
+            return nothing(s);
+        }
+        let pairs = OneTriangle::new(&rays.rows, group, lane);
+        in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
     }
 
     fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
@@ -84,16 +96,16 @@ impl Kernel for Exact {
 }
 
 #[inline(always)]
-fn test<S: Simd>(s: S, ray: &SpannedLanes<S>, corners: &[Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S> {
-    let open = s.bits(reject::open(s, ray, corners, t_max));
-    if open == 0 {
-        let zero = s.splat(0.0);
-        return Lanes { hit: s.mask(0), t: zero, u: zero, v: zero };
-    }
-    let mut lanes = decide::decide(s, &ray.rays, corners, open);
-    // t is rounded: equal to the range's end it has been compared exactly.
-    lanes.hit = s.and(lanes.hit, s.and(s.le(ray.rays.t_min, lanes.t), s.le(lanes.t, t_max)));
-    lanes
+fn nothing<S: Simd>(s: S) -> Lanes<S> {
+    let zero = s.splat(0.0);
+    Lanes { hit: s.mask(0), t: zero, u: zero, v: zero }
+}
+
+/// Where t is equal to an end of the ray's own range, it has been compared exactly.
+#[inline(always)]
+fn in_range<S: Simd>(s: S, lanes: Lanes<S>, ray: &Packet<S>, t_max: S::F) -> Lanes<S> {
+    let within = s.and(s.le(ray.t_min, lanes.t), s.le(lanes.t, t_max));
+    Lanes { hit: s.and(lanes.hit, within), ..lanes }
 }
 
 /// What integers find, rounded.
@@ -101,8 +113,4 @@ fn test<S: Simd>(s: S, ray: &SpannedLanes<S>, corners: &[Vec3Lanes<S>; 3], t_max
 fn by_integers(ray: &Ray, corners: &Corners) -> Option<[f32; 3]> {
     let hit = crate::exact::intersect(ray, corners)?;
     Some([hit.t.to_f32(), hit.u.to_f32(), hit.v.to_f32()])
-}
-
-fn corners_of(corners: [[f32; 3]; 3]) -> Corners {
-    corners.map(Vec3::from_array)
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Vec3;
 use crate::baseline::Brute;
 use crate::exact::{Oracle, Verdict, classify, intersect};
 use crate::kernel::Corners;
