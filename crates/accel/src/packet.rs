@@ -6,6 +6,15 @@ use crate::{Nearest, Ray, Surface, Vec3};
 /// Three coordinates of `LANES` vectors.
 pub type Vec3Lanes<S> = [<S as Simd>::F; 3];
 
+/// What all rays of a raster have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Common {
+    /// One direction: parallel projection.
+    Direction(Vec3),
+    /// One origin: perspective projection.
+    Origin(Vec3),
+}
+
 /// `LANES` rays, coordinate by coordinate.
 #[derive(Clone, Copy)]
 pub struct Packet<S: Simd> {

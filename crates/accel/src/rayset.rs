@@ -1,5 +1,7 @@
 //! Sets of rays: rasters and lists.
 
+use crate::packet::{Common, Packet, splat3};
+use crate::simd::Simd;
 use crate::{Ray, Vec3};
 
 /// How a raster's rays leave the image plane.
@@ -57,6 +59,31 @@ impl Raster {
         match self.projection {
             Projection::Parallel => Ray::new(self.origin + offset, self.forward),
             Projection::Perspective => Ray::new(self.origin, self.forward + offset),
+        }
+    }
+
+    /// [`Raster::ray`] in lanes, bit for bit, for pixel centres `x` = column + ½ and `y` = row + ½.
+    #[inline(always)]
+    pub fn packet<S: Simd>(&self, s: S, x: S::F, y: S::F) -> Packet<S> {
+        let at = |base: Vec3| {
+            [0, 1, 2].map(|axis| {
+                let right = s.mul(s.splat(self.right[axis]), x);
+                let down = s.mul(s.splat(self.down[axis]), y);
+                s.add(s.splat(base[axis]), s.add(right, down))
+            })
+        };
+        let (origin, direction) = match self.projection {
+            Projection::Parallel => (at(self.origin), splat3(s, self.forward)),
+            Projection::Perspective => (splat3(s, self.origin), at(self.forward)),
+        };
+        Packet { origin, direction, t_min: s.splat(0.0), t_max: s.splat(f32::INFINITY) }
+    }
+
+    /// What all rays have in common.
+    pub const fn common(&self) -> Common {
+        match self.projection {
+            Projection::Parallel => Common::Direction(self.forward),
+            Projection::Perspective => Common::Origin(self.origin),
         }
     }
 }

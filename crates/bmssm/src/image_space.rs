@@ -133,6 +133,21 @@ impl ImageSpace {
         Pixels { rows: centres(rows, self.rows), cols: centres(cols, self.cols), near }
     }
 
+    /// About where a ray of the raster passes the image: column and row, in pixels from its outer corner.
+    pub fn locate(&self, ray: &accel::Ray) -> Option<(f64, f64)> {
+        let vector = |v: accel::Vec3| [0, 1, 2].map(|a| f64::from(v[a]));
+        let [t, x, y] = match self.projection {
+            Projection::Parallel => {
+                let origin = vector(ray.origin);
+                let offset = [0, 1, 2].map(|a| origin[a] - self.origin[a]);
+                let [_, x, y] = self.forms.map(|form| dot(form, offset));
+                [1.0, x, y]
+            }
+            Projection::Perspective => self.forms.map(|form| dot(form, vector(ray.direction))),
+        };
+        (x / t).is_finite().then_some((x / t, y / t))
+    }
+
     /// Ranges of columns and rows, and the least t.
     fn parallel(&self, bounds: &Aabb) -> ([Span; 2], f64) {
         let [low, high] = self.offsets(bounds);

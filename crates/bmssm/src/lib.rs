@@ -6,3 +6,4 @@
 pub mod dense;
 pub mod general;
 pub mod image_space;
+pub mod raster;

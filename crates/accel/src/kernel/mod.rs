@@ -17,7 +17,7 @@ pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
 pub use watertight::Watertight;
 
-use crate::packet::{Lanes, Packet, Vec3Lanes};
+use crate::packet::{Common, Lanes, Packet, Vec3Lanes};
 use crate::simd::{ROW, Row, Scalar, Simd};
 use crate::{Ray, Surface, Vec3};
 use std::cmp::Ordering;
@@ -72,6 +72,32 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
         let _ = (ray, a, b);
         Ordering::Equal
+    }
+
+    /// Rows of values for each group that [`Kernel::prepare`] computes.
+    const PREPARED_ROWS: usize = 0;
+
+    /// Computes, for the triangles in lanes `at .. at + LANES` of a group, whatever is the same for all
+    /// rays with this in common.
+    #[inline(always)]
+    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
+        let _ = (s, common, group, at, rows);
+    }
+
+    /// [`Kernel::rays`] for rays with this in common, with the rows prepared for the group: the same
+    /// operations on the same operands, those that don't depend on the ray done before.
+    #[inline(always)]
+    fn rays_prepared<S: Simd>(
+        s: S,
+        rays: &Self::Many<S>,
+        common: &Common,
+        group: &[Row],
+        rows: &[Row],
+        lane: usize,
+        t_max: S::F,
+    ) -> Lanes<S> {
+        let _ = (common, rows);
+        Self::rays(s, rays, group, lane, t_max)
     }
 
     /// One ray against one triangle.
@@ -174,6 +200,14 @@ pub(crate) fn splat_corners<S: Simd>(s: S, group: &[Row], lane: usize) -> [Vec3L
 #[inline(always)]
 fn splat_row3<S: Simd>(s: S, rows: &[Row], lane: usize) -> Vec3Lanes<S> {
     [s.splat(rows[0].0[lane]), s.splat(rows[1].0[lane]), s.splat(rows[2].0[lane])]
+}
+
+/// Writes three rows from lane `at` on.
+#[inline(always)]
+pub(crate) fn store_rows<S: Simd>(s: S, v: Vec3Lanes<S>, rows: &mut [Row], at: usize) {
+    for (v, row) in v.into_iter().zip(rows) {
+        s.store(v, &mut row.0[at..]);
+    }
 }
 
 /// a − b

@@ -8,8 +8,8 @@ pub use boxes::Boxes;
 pub use one_by_one::OneByOne;
 pub use triangles::{TriangleBlocks, Triangles};
 
-use crate::packet::{NearestPacket, Packet};
-use crate::simd::Simd;
+use crate::packet::{Common, NearestPacket, Packet};
+use crate::simd::{Row, Simd};
 use crate::{Aabb, Nearest, Ray, Surface};
 
 /// Objects in a block: one bit each of a 64-bit word.
@@ -101,6 +101,35 @@ pub trait Blocks: Send + Sync {
 
     /// Tests the object of one slot with `LANES` rays.
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>);
+
+    /// Rows of values for each 16 slots that [`Blocks::prepare`] computes.
+    const PREPARED_ROWS: usize = 0;
+
+    /// Computes, for the 16 slots from `first` on (a multiple of 16), whatever is the same for all rays
+    /// with this in common.
+    ///
+    /// # Panics
+    /// If `rows` are fewer than [`Blocks::PREPARED_ROWS`].
+    #[inline(always)]
+    fn prepare<S: Simd>(&self, s: S, first: usize, common: &Common, rows: &mut [Row]) {
+        let _ = (s, first, common, rows);
+    }
+
+    /// [`Blocks::packet`] for rays with this in common, with the rows prepared for the slot's 16:
+    /// the same operations, so the same bits, but those that don't depend on the ray done before.
+    #[inline(always)]
+    fn packet_prepared<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        common: &Common,
+        rows: &[Row],
+        rays: &Self::Many<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let _ = (common, rows);
+        self.packet(s, slot, rays, best);
+    }
 }
 
 /// The padding of boxes: large against the rounding of a hit's position in `f32`, small

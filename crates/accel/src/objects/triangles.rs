@@ -1,8 +1,8 @@
 //! Triangles as objects, with the kernel as a parameter.
 
 use super::{BLOCK, Blocks, EMPTY_SLOT, Objects, lawful, pad_of};
-use crate::kernel::{Corners, Kernel};
-use crate::packet::{Lanes, NearestPacket, Packet};
+use crate::kernel::{Corners, Kernel, load_corners, store_rows, sub3};
+use crate::packet::{Common, Lanes, NearestPacket, Packet, Vec3Lanes};
 use crate::simd::{ROW, Row, Simd};
 use crate::{Aabb, Mesh, Nearest, Ray, Surface, Vec3};
 use std::cmp::Ordering;
@@ -187,6 +187,57 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         lanes.hit = s.mask(settled);
     }
 
+    /// The corners of the triangles in `LANES` slots, where the rows don't hold them.
+    #[inline(always)]
+    fn gather<S: Simd>(&self, s: S, first: usize) -> [Vec3Lanes<S>; 3] {
+        let mut rows = [[[f32::NAN; ROW]; 3]; 3];
+        for lane in 0..S::LANES {
+            let object = self.order.get(first + lane).copied().unwrap_or(EMPTY_SLOT);
+            if object != EMPTY_SLOT {
+                for (corner, rows) in self.triangles.corners(object).iter().zip(&mut rows) {
+                    (rows[0][lane], rows[1][lane], rows[2][lane]) = (corner.x, corner.y, corner.z);
+                }
+            }
+        }
+        rows.map(|corner| corner.map(|row| s.load(&row)))
+    }
+
+    /// Offers those lanes of `hits` that keep the law: those in `plain` whose origins are near, and
+    /// those of the others that the full test finds lawful.
+    #[inline(always)]
+    fn offer<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        rays: &TrianglePacket<S, K::Many<S>>,
+        plain: S::M,
+        mut lanes: Lanes<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let hits = s.bits(lanes.hit);
+        let plain = s.bits(s.and(rays.near, plain));
+        let mut open = hits & !plain;
+        if open != 0 {
+            let corners = self.corners(self.group(slot), slot);
+            let mut lawful = hits & plain;
+            let rows = lanes.rows(s);
+            while open != 0 {
+                let lane = open.trailing_zeros() as usize;
+                open &= open - 1;
+                if self.triangles.frame.lawful(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t)
+                {
+                    lawful |= 1 << lane;
+                }
+            }
+            lanes.hit = s.mask(lawful);
+        }
+        let object = self.order[slot];
+        if K::ORDERS_TIES {
+            self.take_ties(s, object, &mut lanes, &rays.rays, best);
+        }
+        best.offer(s, object, &lanes);
+    }
+
     /// Calls `found` with every lawful hit among the set bits until it says to stop.
     #[inline(always)]
     fn visit<S: Simd>(
@@ -278,34 +329,76 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         let group = self.group(slot);
-        let mut lanes = K::rays(s, &rays.prepared, group, slot % ROW, best.t);
-        let hits = s.bits(lanes.hit);
-        if hits == 0 {
+        let lanes = K::rays(s, &rays.prepared, group, slot % ROW, best.t);
+        if s.bits(lanes.hit) == 0 {
             return;
         }
         let corners = self.corners(group, slot);
-        let frame = &self.triangles.frame;
-        let plain = s.bits(s.and(rays.near, plainly_lawful(s, frame, &corners, &rays.rays, lanes.t)));
-        let mut open = hits & !plain;
-        if open != 0 {
-            let mut lawful = hits & plain;
-            let rows = lanes.rows(s);
-            while open != 0 {
-                let lane = open.trailing_zeros() as usize;
-                open &= open - 1;
-                if frame.lawful(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t) {
-                    lawful |= 1 << lane;
-                }
-            }
-            lanes.hit = s.mask(lawful);
+        let plain = plainly_lawful(s, &self.triangles.frame, &corners, &rays.rays, lanes.t);
+        self.offer(s, slot, rays, plain, lanes, best);
+    }
+
+    const PREPARED_ROWS: usize = K::PREPARED_ROWS + LIMIT_ROWS;
+
+    #[inline(always)]
+    fn prepare<S: Simd>(&self, s: S, first: usize, common: &Common, rows: &mut [Row]) {
+        let group = self.group(first);
+        let (limits, rows) = rows[..Self::PREPARED_ROWS].split_at_mut(LIMIT_ROWS);
+        let half = s.splat(self.triangles.frame.pad * 0.5);
+        for at in (0..ROW).step_by(S::LANES) {
+            K::prepare(s, common, group, at, rows);
+            let [a, b, c] = if K::corners(group, 0).is_some() {
+                load_corners(s, group, at)
+            } else {
+                self.gather(s, first + at)
+            };
+            let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
+            let zero = s.splat(0.0);
+            let edges = |axis: usize| (edge1[axis], edge2[axis]);
+            let low = [0, 1, 2].map(|axis| {
+                let (e, f) = edges(axis);
+                s.sub(s.min(s.min(e, f), zero), half)
+            });
+            let high = [0, 1, 2].map(|axis| {
+                let (e, f) = edges(axis);
+                s.add(s.max(s.max(e, f), zero), half)
+            });
+            store_rows(s, a, &mut limits[0..3], at);
+            store_rows(s, low, &mut limits[3..6], at);
+            store_rows(s, high, &mut limits[6..9], at);
         }
-        let object = self.order[slot];
-        if K::ORDERS_TIES {
-            self.take_ties(s, object, &mut lanes, &rays.rays, best);
+    }
+
+    #[inline(always)]
+    fn packet_prepared<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        common: &Common,
+        rows: &[Row],
+        rays: &Self::Many<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let group = self.group(slot);
+        let lane = slot % ROW;
+        let (limits, rows) = rows[..Self::PREPARED_ROWS].split_at(LIMIT_ROWS);
+        let lanes = K::rays_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
+        if s.bits(lanes.hit) == 0 {
+            return;
         }
-        best.offer(s, object, &lanes);
+        let mut plain = s.mask(u32::MAX);
+        for axis in 0..3 {
+            let at = |row: usize| s.splat(limits[row + axis].0[lane]);
+            let from_a = s.sub(rays.rays.origin[axis], at(0));
+            let position = s.add(from_a, s.mul(rays.rays.direction[axis], lanes.t));
+            plain = s.and(plain, s.and(s.le(at(3), position), s.le(position, at(6))));
+        }
+        self.offer(s, slot, rays, plain, lanes, best);
     }
 }
+
+/// Rows that hold each triangle's first corner and the limits of [`Frame::plainly_lawful`].
+const LIMIT_ROWS: usize = 9;
 
 /// [`Frame::plainly_lawful`] in lanes.
 #[inline(always)]

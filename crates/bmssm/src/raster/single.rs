@@ -1,0 +1,113 @@
+//! Single pixels, coverage and memory.
+
+use super::{RasterMaps, THICKNESS};
+use crate::image_space::ImageSpace;
+use accel::objects::{BLOCK, Blocks, EMPTY_SLOT};
+use accel::simd::{Simd, Task};
+use accel::{Footprint, Hit, Nearest, Objects, Raster, Ray, vec_bytes};
+use std::ops::Range;
+
+/// The ray of one pixel.
+struct Pixel<'a, O: Objects> {
+    maps: &'a RasterMaps<O>,
+    row: u32,
+    col: u32,
+}
+
+impl<O: Objects> Task for Pixel<'_, O> {
+    type Out = Nearest;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> Nearest {
+        let Self { maps, row, col } = self;
+        let one = maps.geometry.one(&maps.raster.ray(row, col));
+        let (row, col) = (row / THICKNESS, col / THICKNESS);
+        let mut best = Nearest::new(f32::INFINITY);
+        let across = maps.settings.tile;
+        for (i, (r, c)) in maps.tiles.of(row / across, col / across).enumerate() {
+            let mut seen = r & c;
+            while seen != 0 {
+                let at = i * 64 + seen.trailing_zeros() as usize;
+                seen &= seen - 1;
+                let block = &maps.blocks[at];
+                if block.depth[0] > best.t {
+                    return best;
+                }
+                // Wraps to a number beyond the block's slices where the pixel lies before them.
+                let (r, c) = (row.wrapping_sub(block.row), col.wrapping_sub(block.col));
+                if r < block.rows && c < block.cols {
+                    let words = &maps.words[block.words as usize..];
+                    let candidates = words[r as usize] & words[(block.rows + c) as usize];
+                    if candidates != 0 {
+                        maps.geometry.closest(s, at, candidates, &one, &mut best);
+                    }
+                }
+            }
+        }
+        best
+    }
+}
+
+impl<O: Objects> RasterMaps<O> {
+    /// The nearest hit of one pixel.
+    ///
+    /// # Panics
+    /// If there is no such pixel.
+    pub fn closest(&self, row: u32, col: u32) -> Option<Hit> {
+        assert!(row < self.raster.rows && col < self.raster.cols, "pixel ({row}, {col}) outside the image");
+        self.settings.simd.run(Pixel { maps: self, row, col }).hit()
+    }
+
+    /// The pixel whose ray this is.
+    pub fn pixel_of(&self, ray: &Ray) -> Option<(u32, u32)> {
+        let Raster { rows, cols, .. } = self.raster;
+        let find = |near: [Range<u32>; 2]| {
+            let [ys, xs] = near;
+            ys.flat_map(|row| xs.clone().map(move |col| (row, col)))
+                .find(|&(row, col)| self.raster.ray(row, col) == *ray)
+        };
+        let around = |v: f64, n: u32| {
+            let v = v.floor().clamp(0.0, f64::from(n.max(1) - 1)) as u32;
+            v.saturating_sub(1)..(v + 2).min(n)
+        };
+        let near = ImageSpace::new(&self.raster).locate(ray);
+        // Rounding may hide where a ray passes an image that is almost a line or a point.
+        near.and_then(|(x, y)| find([around(y, rows), around(x, cols)])).or_else(|| find([0..rows, 0..cols]))
+    }
+
+    /// The raster that the maps serve.
+    pub fn raster(&self) -> &Raster {
+        &self.raster
+    }
+
+    /// Objects that the image can show: their bits in both V and W are 1 (Skala 1993, §2).
+    pub fn shown(&self) -> usize {
+        self.shown
+    }
+
+    /// A bit per object: whether the image can show it, V & W (Skala 1993, §2).
+    pub fn coverage(&self) -> Vec<u64> {
+        let mut bits = vec![0; self.objects.len().div_ceil(64)];
+        for slot in 0..self.blocks.len() * BLOCK {
+            let object = self.geometry.object(slot);
+            if object != EMPTY_SLOT {
+                bits[object as usize / 64] |= 1 << (object % 64);
+            }
+        }
+        bits
+    }
+
+    /// Blocks of [`BLOCK`] objects.
+    pub fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// What the maps hold in memory.
+    pub fn footprint(&self) -> Footprint {
+        Footprint::default()
+            .structure("blocks", vec_bytes(&self.blocks))
+            .structure("words", vec_bytes(&self.words))
+            .structure("tiles", self.tiles.bytes())
+            .geometry_copy("objects", self.geometry.bytes())
+    }
+}
