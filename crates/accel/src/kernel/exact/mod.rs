@@ -81,7 +81,8 @@ impl Kernel for Exact {
         if open == 0 {
             return nothing(s);
         }
-        let pairs = OneTriangle::new(&rays.rows, group, lane);
+        // Else the compiler loads the corners once for here and above, and by a gather.
+        let pairs = OneTriangle::new(&rays.rows, std::hint::black_box(group), lane);
         in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
     }
 
