@@ -2,9 +2,21 @@
 
 #![forbid(unsafe_code)]
 
+pub mod answers;
+pub mod check;
 pub mod cmd;
+pub mod grouped;
+pub mod heap;
+pub mod machine;
+pub mod measure;
 pub mod near;
 pub mod output;
 pub mod rays;
+pub mod rayset;
+pub mod record;
+pub mod registry;
 pub mod scene;
+pub mod stats;
+#[cfg(test)]
+mod testing;
 pub mod units;

@@ -1,0 +1,9 @@
+//! Whether structures lose or invent hits.
+
+mod errors;
+mod reference;
+#[cfg(test)]
+mod tests;
+
+pub use errors::judge;
+pub use reference::{Reference, compare};

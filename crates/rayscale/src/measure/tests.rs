@@ -1,0 +1,157 @@
+//! Measuring structures of all kinds, faulty ones among them.
+
+use super::*;
+use crate::rayset::Workload;
+use crate::record::{Cell, Query};
+use crate::registry::{self, Choice, Entry, Traits};
+use crate::testing;
+use accel::baseline::MinMax;
+use accel::{Accel, BuildError, Builder, Footprint, Hit, KernelId, Need, Ray, RaySet, Scene};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn quick() -> Options {
+    Options { rounds: 3, build_rounds: 2, ..Options::default() }
+}
+
+fn workloads(scene_rays: RaySet) -> Vec<Workload> {
+    vec![
+        Workload {
+            id: "parallel".into(),
+            rays: RaySet::Raster(testing::raster(64, 64)),
+            query: Query::Closest,
+        },
+        Workload { id: "random".into(), rays: scene_rays.clone(), query: Query::Closest },
+        Workload { id: "shadow".into(), rays: scene_rays, query: Query::Occluded },
+    ]
+}
+
+fn cells(choices: &[Choice], options: &Options) -> Vec<Cell> {
+    let (scene, rays) = testing::cloud(400, 2000);
+    let workloads = workloads(rays);
+    let mut told = Vec::new();
+    let job = Job { scene: &scene, workloads: &workloads, choices, options };
+    let cells = measure(&job, |id| told.push(id.to_owned()));
+    assert_eq!(told, ["parallel", "random", "shadow"]);
+    cells
+}
+
+#[test]
+fn every_structure_has_a_cell_for_every_ray_set() {
+    let ids = ["brute", "minmax", "sphere:kernel=watertight"];
+    let choices: Vec<_> = ids.iter().map(|id| registry::parse(id).unwrap()).collect();
+    let options = Options { counters: true, ..quick() };
+    let cells = cells(&choices, &options);
+    assert_eq!(cells.len(), 9);
+    for cell in &cells {
+        assert_eq!(cell.error, None);
+        assert_eq!((cell.trace_ns.len(), cell.build_ns.len()), (3, 2));
+        let check = cell.check.as_ref().unwrap();
+        assert_eq!((check.rays_checked, check.differences), (cell.ray_count, 0));
+        assert!(cell.hits > 0 && cell.ns().unwrap() > 0.0);
+    }
+    assert_eq!(cells[2].kernel, "watertight");
+    assert_eq!(cells[1].counters.as_ref().unwrap()["candidates"], 400.0);
+}
+
+#[test]
+fn linear_structures_get_fewer_rays() {
+    let choices = [registry::parse("minmax").unwrap()];
+    let cells = cells(&choices, &Options { linear_tests: 400 * 100, ..quick() });
+    assert_eq!(cells.iter().map(|c| c.ray_count).collect::<Vec<_>>(), [100, 100, 100]);
+}
+
+/// Right, but for one thing.
+struct Odd(Fault);
+
+#[derive(Clone, Copy, PartialEq)]
+enum Fault {
+    None,
+    RefusesToBuild,
+    PanicsInBuild,
+    PanicsInTrace,
+    LosesHits,
+    ChangesItsMind,
+    WritesNothingLater,
+}
+
+struct OddAccel<'s>(Box<dyn Accel + 's>, Fault, AtomicUsize);
+
+impl Builder for Odd {
+    fn id(&self) -> &str {
+        "odd"
+    }
+
+    fn settings(&self) -> String {
+        String::new()
+    }
+
+    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        if self.0 == Fault::RefusesToBuild {
+            return Err(BuildError::Unsupported { structure: "odd".into(), what: "anything".into() });
+        }
+        assert!(self.0 != Fault::PanicsInBuild, "no build today");
+        let inner = MinMax { kernel: KernelId::MollerTrumbore }.build(scene, need)?;
+        Ok(Box::new(OddAccel(inner, self.0, AtomicUsize::new(0))))
+    }
+}
+
+impl Accel for OddAccel<'_> {
+    fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.0.closest(ray)
+    }
+
+    fn trace(&self, rays: &RaySet, hits: &mut [Option<Hit>]) {
+        let time = self.2.fetch_add(1, Ordering::Relaxed);
+        if self.1 == Fault::WritesNothingLater && time > 0 {
+            return;
+        }
+        self.0.trace(rays, hits);
+        match self.1 {
+            Fault::PanicsInTrace => panic!("no trace {}", "today"),
+            Fault::LosesHits => hits.iter_mut().step_by(100).for_each(|hit| *hit = None),
+            Fault::ChangesItsMind if time == 2 => *hits.iter_mut().rfind(|h| h.is_some()).unwrap() = None,
+            _ => {}
+        }
+    }
+
+    fn footprint(&self) -> Footprint {
+        self.0.footprint()
+    }
+}
+
+fn odd(fault: Fault) -> Cell {
+    static ENTRY: Entry = Entry {
+        id: "odd",
+        description: "",
+        source: "",
+        version: String::new,
+        settings: &[],
+        traits: Traits::OWN,
+        variants: &[],
+        make: |_| unreachable!("made by the test"),
+    };
+    let odd = Choice { spec: "odd".parse().unwrap(), entry: &ENTRY, builder: Box::new(Odd(fault)) };
+    let choices = [registry::parse("minmax").unwrap(), odd];
+    let cells = cells(&choices, &quick());
+    let sound = cells.iter().filter(|c| c.structure == "minmax");
+    assert_eq!(sound.filter(|c| c.error.is_none() && c.trace_ns.len() == 3).count(), 3, "others go on");
+    cells.into_iter().find(|c| c.structure == "odd" && c.rays == "parallel").unwrap()
+}
+
+#[test]
+fn what_goes_wrong_is_recorded() {
+    assert_eq!(odd(Fault::None).error, None);
+    for (fault, says) in [
+        (Fault::RefusesToBuild, "odd does not serve anything"),
+        (Fault::PanicsInBuild, "the build panicked: no build today"),
+        (Fault::PanicsInTrace, "tracing panicked: no trace today"),
+        (Fault::LosesHits, "rays differ from brute force"),
+        (Fault::ChangesItsMind, "of a timed trace has another answer"),
+        (Fault::WritesNothingLater, "ray 0 of a timed trace has another answer"),
+    ] {
+        let cell = odd(fault);
+        let error = cell.error.clone().unwrap_or_default();
+        assert!(error.contains(says), "`{error}` should say `{says}`");
+        assert_eq!((cell.ns(), cell.build()), (None, None), "a cell that failed has no time: {says}");
+    }
+}

@@ -1,0 +1,175 @@
+//! One measurement: a structure on a scene's ray set.
+
+use crate::stats;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What is asked of every ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Query {
+    /// The nearest hit.
+    Closest,
+    /// Whether there is any hit.
+    Occluded,
+}
+
+/// A structure on a scene's ray set.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    /// Scene.
+    pub scene: String,
+    /// Ray set.
+    pub rays: String,
+    /// What was asked of every ray.
+    pub query: Query,
+    /// Structure, by its name in [`super::Record::structures`].
+    pub structure: String,
+    /// Ray-triangle test, or `own` for a foreign structure's.
+    pub kernel: String,
+    /// Threads that built and traced.
+    pub threads: usize,
+    /// Rays in a sample. Structures whose time grows with the number of objects trace fewer.
+    pub ray_count: u64,
+    /// Rays of them that hit.
+    pub hits: u64,
+    /// Build times in ns, in the order taken.
+    pub build_ns: Vec<u64>,
+    /// Times for all rays in ns, in the order taken.
+    pub trace_ns: Vec<u64>,
+    /// Summary of the trace times; none where there is no sample.
+    pub ns_per_ray: Option<Timing>,
+    /// Memory.
+    pub bytes: Option<Bytes>,
+    /// What the structure chose and why, in its own words.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub plan: String,
+    /// Steps per ray by name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub counters: Option<BTreeMap<String, f64>>,
+    /// Against brute force.
+    pub check: Option<Check>,
+    /// What went wrong, if anything did.
+    pub error: Option<String>,
+}
+
+/// What makes a cell comparable: all but the structure.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Key {
+    /// Scene.
+    pub scene: String,
+    /// Ray set.
+    pub rays: String,
+    /// Threads.
+    pub threads: usize,
+}
+
+impl Cell {
+    /// What the cell shares with those it can be compared with.
+    pub fn key(&self) -> Key {
+        Key { scene: self.scene.clone(), rays: self.rays.clone(), threads: self.threads }
+    }
+
+    /// Median ns per ray, unless the cell failed.
+    pub fn ns(&self) -> Option<f64> {
+        self.ns_per_ray.as_ref().filter(|_| self.error.is_none()).map(|timing| timing.median)
+    }
+
+    /// Median build time in ns, unless the cell failed.
+    pub fn build(&self) -> Option<f64> {
+        let samples: Vec<f64> = self.build_ns.iter().map(|ns| *ns as f64).collect();
+        stats::median(&samples).filter(|_| self.error.is_none())
+    }
+
+    /// Samples in ns per ray.
+    pub fn samples_per_ray(&self) -> Vec<f64> {
+        let rays = self.ray_count.max(1) as f64;
+        self.trace_ns.iter().map(|ns| *ns as f64 / rays).collect()
+    }
+
+    /// Sets the summary by the samples.
+    pub fn summarise(&mut self) {
+        self.ns_per_ray = stats::summary(&self.samples_per_ray()).map(|s| Timing {
+            median: s.median,
+            mad: s.mad,
+            min: s.min,
+        });
+    }
+}
+
+/// Time for a ray in ns over the samples of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// Median.
+    pub median: f64,
+    /// Median absolute deviation from the median.
+    pub mad: f64,
+    /// Least.
+    pub min: f64,
+}
+
+/// Memory of a built structure in bytes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Bytes {
+    /// What the method adds.
+    pub structure: u64,
+    /// What it copies of the scene.
+    pub geometry_copy: u64,
+    /// Most bytes in use at once during the build, what remains included; none where the
+    /// structure allocates outside this program's allocator.
+    pub peak_build: Option<u64>,
+    /// What the allocator saw left after the build; none as above.
+    #[serde(default)]
+    pub allocated: Option<u64>,
+    /// The parts by name.
+    pub parts: BTreeMap<String, u64>,
+}
+
+/// Hits compared with brute force.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Check {
+    /// Rays compared, spread evenly over the set.
+    pub rays_checked: u64,
+    /// Rays of them whose answers are not equal bit for bit.
+    pub differences: u64,
+    /// For structures with a ray-triangle test of their own: what the differences are,
+    /// decided by exact arithmetic.
+    #[serde(flatten)]
+    pub errors: Option<Errors>,
+}
+
+/// Wrong answers by exact arithmetic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Errors {
+    /// No hit where there is one.
+    pub missed: u64,
+    /// A hit where there is none.
+    pub false_hits: u64,
+    /// A hit of another object than the nearest.
+    pub wrong_object: u64,
+    /// 99 % of the hits of the right object are off by at most so many units in the last
+    /// place of t, over the rays decided exactly.
+    pub t_ulp_p99: f64,
+    /// The largest error of t in such units.
+    pub t_ulp_max: f64,
+    /// Rays decided exactly: those that differ from brute force, and a sample of the rest.
+    pub rays_exact: u64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn summaries_are_per_ray_and_failed_cells_have_no_time() {
+        let mut cell = crate::testing::cell("s", "parallel", "x", 20.0);
+        cell.ray_count = 10;
+        cell.trace_ns = vec![100, 300, 200];
+        cell.build_ns = vec![5, 7, 6];
+        cell.summarise();
+        assert_eq!(cell.ns_per_ray, Some(Timing { median: 20.0, mad: 10.0, min: 10.0 }));
+        assert_eq!((cell.ns(), cell.build()), (Some(20.0), Some(6.0)));
+        cell.error = Some("lost hits".into());
+        assert_eq!((cell.ns(), cell.build()), (None, None));
+    }
+}

@@ -1,0 +1,100 @@
+//! Records as files.
+
+use super::{FORMAT, Record};
+use crate::output::write_whole;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Why there is no record to be had from a file.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// The file can't be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// The file holds no record.
+    #[error("{}, line {}, column {}: not a record of rayscale: {source}", path.display(), source.line(), source.column())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: serde_json::Error,
+    },
+    /// A record of a later form.
+    #[error("{}: a record of format {found}; this program reads up to format {FORMAT}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        found: u64,
+    },
+}
+
+/// Reads a record.
+///
+/// # Errors
+/// Files that can't be read, are no record, or are of a later form.
+pub fn read(path: &Path) -> Result<Record, RecordError> {
+    let text =
+        std::fs::read_to_string(path).map_err(|source| RecordError::Io { path: path.to_owned(), source })?;
+    let syntax = |source| RecordError::Syntax { path: path.to_owned(), source };
+    // The format comes first: a later record may lack what this one needs.
+    #[derive(serde::Deserialize)]
+    struct Head {
+        format: u64,
+    }
+    let Head { format } = serde_json::from_str(&text).map_err(syntax)?;
+    if format > u64::from(FORMAT) {
+        return Err(RecordError::Format { path: path.to_owned(), found: format });
+    }
+    serde_json::from_str(&text).map_err(syntax)
+}
+
+/// Writes a record whole or not at all.
+///
+/// # Errors
+/// Errors of the file system.
+pub fn write(path: &Path, record: &Record) -> Result<(), RecordError> {
+    let written: Result<(), io::Error> = write_whole(path, |out| {
+        serde_json::to_writer_pretty(&mut *out, record)?;
+        out.write_all(b"\n")
+    });
+    written.map_err(|source| RecordError::Io { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn records_come_back_as_they_were() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("record.json");
+        let record = testing::record();
+        write(&path, &record).unwrap();
+        assert_eq!(read(&path).unwrap(), record);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_is_no_record_is_said_with_its_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("record.json");
+        let error = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            read(&path).unwrap_err()
+        };
+        assert!(matches!(error("{\"format\": 99}"), RecordError::Format { found: 99, .. }));
+        let message = error("{\"format\": 1,\n \"cells\": 3}").to_string();
+        assert!(message.contains("line 2") && message.contains("not a record"), "{message}");
+        assert!(matches!(error("PNG"), RecordError::Syntax { .. }));
+        assert!(matches!(read(&folder.path().join("none")), Err(RecordError::Io { .. })));
+        let folder_missing = folder.path().join("none").join("record.json");
+        assert!(matches!(write(&folder_missing, &testing::record()), Err(RecordError::Io { .. })));
+    }
+}

@@ -1,0 +1,190 @@
+//! The one place that names all structures.
+//!
+//! An [`Entry`] says what a structure is, which settings it takes and how it is made from
+//! them. Adding a structure is adding an entry to `entries.rs`.
+
+mod entries;
+mod error;
+mod settings;
+
+pub use error::RegistryError;
+pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
+
+use accel::Builder;
+
+/// A structure that can be built.
+pub struct Entry {
+    /// Its id.
+    pub id: &'static str,
+    /// What it is, in a line.
+    pub description: &'static str,
+    /// Where the method is published.
+    pub source: &'static str,
+    /// Version of the library behind it.
+    pub version: fn() -> String,
+    /// The settings it takes.
+    pub settings: &'static [Setting],
+    /// How it takes part in a comparison.
+    pub traits: Traits,
+    /// Settings worth checking besides the default ones, as `name=value,…`.
+    pub variants: &'static [&'static str],
+    /// Makes a builder.
+    pub make: fn(&Settings) -> Result<Box<dyn Builder>, RegistryError>,
+}
+
+/// How a structure takes part in a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traits {
+    /// Part of the default comparison.
+    pub default: bool,
+    /// Uses the suite's kernels: must equal brute force bit for bit.
+    pub own_kernel: bool,
+    /// Its time per ray grows with the number of objects: it gets fewer rays.
+    pub linear: bool,
+    /// What is built depends on the need: another build for every raster.
+    pub by_need: bool,
+    /// Serves lists of rays.
+    pub lists: bool,
+    /// Its memory comes from this program's allocator, so that peaks can be counted.
+    pub counted: bool,
+}
+
+impl Traits {
+    /// One of the suite's own structures.
+    pub const OWN: Self =
+        Self { default: true, own_kernel: true, linear: false, by_need: false, lists: true, counted: true };
+    /// A structure from elsewhere with a ray-triangle test of its own.
+    pub const FOREIGN: Self = Self { own_kernel: false, ..Self::OWN };
+}
+
+/// A structure that this program was built without.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Absent {
+    /// Its id.
+    pub id: &'static str,
+    /// Why it is absent.
+    pub reason: String,
+}
+
+/// A structure with its settings, ready to build.
+pub struct Choice {
+    /// As asked for.
+    pub spec: StructureSpec,
+    /// What is known of it.
+    pub entry: &'static Entry,
+    /// Makes it.
+    pub builder: Box<dyn Builder>,
+}
+
+impl Choice {
+    /// The name of the ray-triangle test: one of the suite's, or `own` for a foreign structure's.
+    pub fn kernel(&self) -> &str {
+        if !self.entry.traits.own_kernel {
+            return "own";
+        }
+        self.spec.get("kernel").unwrap_or(accel::KernelId::MollerTrumbore.id())
+    }
+}
+
+/// All structures of this program, in the order of reports.
+pub fn entries() -> &'static [Entry] {
+    entries::all()
+}
+
+/// The structures that this program was built without, with the reason.
+pub fn absent() -> Vec<Absent> {
+    entries::absent()
+}
+
+/// The structure of that id.
+///
+/// # Errors
+/// [`RegistryError::Unknown`] with near ids, [`RegistryError::Absent`] with the reason.
+pub fn find(id: &str) -> Result<&'static Entry, RegistryError> {
+    if let Some(entry) = entries().iter().find(|entry| entry.id == id) {
+        return Ok(entry);
+    }
+    if let Some(Absent { id, reason }) = absent().into_iter().find(|absent| absent.id == id) {
+        return Err(RegistryError::Absent { id: id.to_owned(), reason });
+    }
+    let known = entries().iter().map(|entry| entry.id).chain(absent().into_iter().map(|a| a.id));
+    Err(RegistryError::Unknown { id: id.to_owned(), near: near(id, known) })
+}
+
+/// A builder for a structure with settings.
+///
+/// # Errors
+/// Unknown or absent structures, unknown settings, bad values: [`RegistryError`].
+pub fn choose(spec: &StructureSpec) -> Result<Choice, RegistryError> {
+    let entry = find(&spec.id)?;
+    let builder = (entry.make)(&Settings::new(spec, entry.settings)?)?;
+    Ok(Choice { spec: spec.clone(), entry, builder })
+}
+
+/// As [`choose`], from text.
+///
+/// # Errors
+/// As [`choose`]; also what can't be read.
+pub fn parse(text: &str) -> Result<Choice, RegistryError> {
+    choose(&text.parse()?)
+}
+
+/// The structures of the default comparison.
+pub fn defaults() -> Vec<StructureSpec> {
+    let all = entries().iter().filter(|entry| entry.traits.default);
+    all.map(|entry| StructureSpec { id: entry.id.to_owned(), settings: Vec::new() }).collect()
+}
+
+/// Up to three of `known` that look like `word`, nearest first.
+pub(crate) fn near<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let word = word.to_lowercase();
+    let mut near: Vec<(f64, &str)> = known
+        .map(|id| (strsim::jaro_winkler(&word, id), id))
+        .filter(|(likeness, id)| *likeness > 0.75 || (word.len() > 2 && id.contains(&word)))
+        .collect();
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    near.into_iter().take(3).map(|(_, id)| id.to_owned()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_structure_is_made_by_its_id_and_by_its_variants() {
+        for entry in entries() {
+            for settings in std::iter::once(&"").chain(entry.variants) {
+                let text = format!("{}:{settings}", entry.id);
+                let choice = parse(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+                assert_eq!(choice.builder.id(), entry.id);
+                assert!(!(entry.version)().is_empty());
+            }
+        }
+    }
+
+    #[test]
+    fn ids_are_unique() {
+        let mut ids: Vec<_> =
+            entries().iter().map(|e| e.id).chain(absent().into_iter().map(|a| a.id)).collect();
+        ids.sort_unstable();
+        let count = ids.len();
+        ids.dedup();
+        assert_eq!(ids.len(), count);
+    }
+
+    #[test]
+    fn slips_get_suggestions() {
+        let error = parse("minimax").err().unwrap();
+        assert!(error.to_string().contains("near: minmax"), "{error}");
+        assert!(matches!(parse("brute:simd=mmx").err().unwrap(), RegistryError::Value { .. }));
+        assert!(matches!(parse("brute:sind=avx2").err().unwrap(), RegistryError::UnknownSetting { .. }));
+    }
+
+    #[test]
+    fn own_structures_take_a_kernel() {
+        for entry in entries().iter().filter(|entry| entry.traits.own_kernel) {
+            assert!(entry.settings.contains(&KERNEL), "{}", entry.id);
+        }
+        assert_eq!(parse("minmax:kernel=watertight").unwrap().kernel(), "watertight");
+    }
+}

@@ -1,0 +1,182 @@
+//! Statistics of samples.
+
+/// What is quoted of a set of samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Summary {
+    /// The middle sample, or the mean of the two in the middle.
+    pub median: f64,
+    /// Median of the absolute deviations from the median, in the samples' unit (not scaled to
+    /// a standard deviation).
+    pub mad: f64,
+    /// The least sample.
+    pub min: f64,
+}
+
+/// Summary of the samples, or `None` if there is none or one is not a number.
+pub fn summary(samples: &[f64]) -> Option<Summary> {
+    let median = median(samples)?;
+    let deviations: Vec<f64> = samples.iter().map(|x| (x - median).abs()).collect();
+    let min = samples.iter().copied().fold(f64::INFINITY, f64::min);
+    Some(Summary { median, mad: self::median(&deviations)?, min })
+}
+
+/// The middle sample, or the mean of the two in the middle; `None` if there is none or one is
+/// not a number.
+pub fn median(samples: &[f64]) -> Option<f64> {
+    quantile(samples, 0.5)
+}
+
+/// The `q`-quantile, linear between the samples to both sides (Hyndman & Fan 1996, type 7);
+/// `None` if there is no sample, one is not a number, or `q` is not in [0, 1].
+pub fn quantile(samples: &[f64], q: f64) -> Option<f64> {
+    if samples.is_empty() || samples.iter().any(|x| x.is_nan()) || !(0.0..=1.0).contains(&q) {
+        return None;
+    }
+    let mut sorted = samples.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = q * (sorted.len() - 1) as f64;
+    let (low, high) = (sorted[at.floor() as usize], sorted[at.ceil() as usize]);
+    let share = at.fract();
+    Some(if share == 0.0 { low } else { low + (high - low) * share })
+}
+
+/// Geometric mean of positive numbers; `None` if there is none or one is not positive and finite.
+pub fn geometric_mean(values: &[f64]) -> Option<f64> {
+    if values.is_empty() || values.iter().any(|v| !(*v > 0.0 && v.is_finite())) {
+        return None;
+    }
+    Some((values.iter().map(|v| v.ln()).sum::<f64>() / values.len() as f64).exp())
+}
+
+/// A range that holds a figure with some confidence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Interval {
+    /// Whether `value` lies in the range, ends included.
+    pub fn contains(&self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+}
+
+/// Percentile bootstrap interval of median(`a`) / median(`b`) (Efron 1979): both sets are drawn
+/// from with replacement, `draws` times, by a generator started at `seed`.
+///
+/// `None` under three samples on a side (such an interval would be too narrow to mean
+/// anything), for numbers that are not positive, or a `confidence` outside of (0, 1).
+pub fn ratio_interval(a: &[f64], b: &[f64], confidence: f64, draws: usize, seed: u64) -> Option<Interval> {
+    let sound = |x: &[f64]| x.len() >= 3 && x.iter().all(|v| *v > 0.0 && v.is_finite());
+    if !sound(a) || !sound(b) || !(confidence > 0.0 && confidence < 1.0) || draws == 0 {
+        return None;
+    }
+    let mut random = SplitMix(seed);
+    let mut resample =
+        |from: &[f64]| -> Vec<f64> { (0..from.len()).map(|_| from[random.below(from.len())]).collect() };
+    let ratios: Option<Vec<f64>> =
+        (0..draws).map(|_| Some(median(&resample(a))? / median(&resample(b))?)).collect();
+    let tail = (1.0 - confidence) / 2.0;
+    let ratios = ratios?;
+    Some(Interval { low: quantile(&ratios, tail)?, high: quantile(&ratios, 1.0 - tail)? })
+}
+
+/// SplitMix64 (Steele, Lea & Flood 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        ((u128::from(self.next()) * n as u128) >> 64) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians() {
+        assert_eq!(median(&[]), None);
+        assert_eq!(median(&[3.0]), Some(3.0));
+        assert_eq!(median(&[9.0, 1.0, 3.0]), Some(3.0));
+        assert_eq!(median(&[9.0, 1.0, 3.0, 5.0]), Some(4.0));
+        assert_eq!(median(&[1.0, f64::NAN]), None);
+    }
+
+    #[test]
+    fn deviation_is_from_the_median_and_absolute() {
+        // The textbook sample: median 2, deviations 1 1 0 0 2 4 7, their median 1.
+        let s = summary(&[1.0, 1.0, 2.0, 2.0, 4.0, 6.0, 9.0]).unwrap();
+        assert_eq!((s.median, s.mad, s.min), (2.0, 1.0, 1.0));
+        // Deviations that are not absolute would have the median 0; from the mean, 18.2.
+        let s = summary(&[1.0, 2.0, 3.0, 4.0, 100.0]).unwrap();
+        assert_eq!((s.median, s.mad), (3.0, 1.0));
+        // Deviations left in the order of the samples would give 49 here.
+        let s = summary(&[100.0, 1.0, 50.0, 51.0, 52.0]).unwrap();
+        assert_eq!((s.median, s.mad), (51.0, 1.0));
+    }
+
+    #[test]
+    fn deviation_ignores_offset_and_follows_scale() {
+        let base = [3.0, 8.0, 1.0, 7.0, 7.0, 2.0];
+        let mad = summary(&base).unwrap().mad;
+        assert_eq!(summary(&base.map(|x| x + 1000.0)).unwrap().mad, mad);
+        assert_eq!(summary(&base.map(|x| x * 4.0)).unwrap().mad, 4.0 * mad);
+        assert_eq!(summary(&[5.0; 4]).unwrap().mad, 0.0);
+    }
+
+    #[test]
+    fn quantiles_interpolate() {
+        let samples = [10.0, 20.0, 30.0, 40.0, 50.0];
+        assert_eq!(quantile(&samples, 0.0), Some(10.0));
+        assert_eq!(quantile(&samples, 1.0), Some(50.0));
+        assert_eq!(quantile(&samples, 0.625), Some(35.0));
+        assert_eq!(quantile(&samples, 1.5), None);
+    }
+
+    #[test]
+    fn geometric_means() {
+        assert!((geometric_mean(&[1.0, 4.0]).unwrap() - 2.0).abs() < 1e-12);
+        assert!((geometric_mean(&[0.5, 2.0, 8.0]).unwrap() - 2.0).abs() < 1e-12);
+        for bad in [&[] as &[f64], &[1.0, 0.0], &[1.0, -2.0], &[1.0, f64::NAN], &[f64::INFINITY]] {
+            assert_eq!(geometric_mean(bad), None);
+        }
+        // Ratios and their inverses must tell the same story.
+        let ratios = [0.3, 1.7, 2.9, 0.8];
+        let inverse = geometric_mean(&ratios.map(|r| 1.0 / r)).unwrap();
+        assert!((geometric_mean(&ratios).unwrap() * inverse - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn intervals_find_a_change_and_no_change() {
+        let noise = |random: &mut SplitMix| 1.0 + random.below(1000) as f64 / 1000.0 * 0.06;
+        let mut random = SplitMix(1);
+        let mut false_alarms = 0;
+        for seed in 0..200 {
+            let a: Vec<f64> = (0..11).map(|_| noise(&mut random)).collect();
+            let b: Vec<f64> = (0..11).map(|_| noise(&mut random)).collect();
+            let slower: Vec<f64> = b.iter().map(|x| x * 1.15).collect();
+            assert!(!ratio_interval(&slower, &a, 0.95, 500, seed).unwrap().contains(1.0));
+            false_alarms += usize::from(!ratio_interval(&b, &a, 0.95, 500, seed).unwrap().contains(1.0));
+        }
+        assert!(false_alarms <= 20, "{false_alarms} of 200 at 95 %");
+    }
+
+    #[test]
+    fn intervals_of_constants_are_points_and_too_few_samples_give_none() {
+        let interval = ratio_interval(&[3.0; 5], &[2.0; 5], 0.95, 100, 7).unwrap();
+        assert_eq!((interval.low, interval.high), (1.5, 1.5));
+        assert_eq!(ratio_interval(&[1.0; 2], &[1.0; 5], 0.95, 100, 7), None);
+    }
+}
