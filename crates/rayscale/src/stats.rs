@@ -71,7 +71,8 @@ impl Interval {
 /// anything), for numbers that are not positive, or a `confidence` outside of (0, 1).
 pub fn ratio_interval(a: &[f64], b: &[f64], confidence: f64, draws: usize, seed: u64) -> Option<Interval> {
     let sound = |x: &[f64]| x.len() >= 3 && x.iter().all(|v| *v > 0.0 && v.is_finite());
-    if !sound(a) || !sound(b) || !(confidence > 0.0 && confidence < 1.0) || draws == 0 {
+    let asked_for = confidence > 0.0 && confidence < 1.0 && draws > 0;
+    if !(sound(a) && sound(b) && asked_for) {
         return None;
     }
     let mut random = SplitMix(seed);

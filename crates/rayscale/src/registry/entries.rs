@@ -1,11 +1,65 @@
 //! The structures.
 
 use super::{Absent, Entry, KERNEL, SIMD, Traits};
+use super::{RegistryError, Settings};
+use accel::Builder;
 use accel::baseline::{Brute, MinMax, Sphere};
+#[cfg(feature = "embree")]
+use adapter_embree::{Denormals, EmbreeBuilder, Quality, Variant};
+use bmssm::dense::BmssmDense;
+use ssm::{Ssm, SsmList};
 
 fn own() -> String {
     env!("CARGO_PKG_VERSION").to_owned()
 }
+
+/// A builder by its defaults and its own `set`.
+macro_rules! set {
+    ($kind:ty) => {
+        |settings: &Settings| -> Result<Box<dyn Builder>, RegistryError> {
+            let mut builder = <$kind>::default();
+            settings.pairs().try_for_each(|(name, value)| builder.set(name, value))?;
+            Ok(Box::new(builder))
+        }
+    };
+}
+
+#[cfg(feature = "embree")]
+fn embree(variant: Variant, settings: &Settings) -> Result<Box<dyn Builder>, RegistryError> {
+    let default = EmbreeBuilder::new(variant);
+    let quality = settings.read("quality", "low, medium or high", Quality::from_id)?;
+    let denormals = settings.read("denormals", "keep or flush", |id| {
+        [Denormals::Keep, Denormals::Flush].into_iter().find(|d| d.id() == id)
+    })?;
+    Ok(Box::new(EmbreeBuilder {
+        quality: quality.unwrap_or(default.quality),
+        denormals: denormals.unwrap_or(default.denormals),
+        ..default
+    }))
+}
+
+#[cfg(feature = "embree")]
+fn embree_version() -> String {
+    adapter_embree::version().map_or_else(
+        |error| format!("unknown: {error}"),
+        |(major, minor, patch)| format!("{major}.{minor}.{patch}"),
+    )
+}
+
+#[cfg(feature = "embree")]
+const EMBREE: Entry = Entry {
+    id: "embree",
+    description: "Embree's BVH, one ray at a time (rtcIntersect1, rtcOccluded1)",
+    source: "Wald et al. 2014, Embree 4",
+    version: embree_version,
+    settings: &[
+        ("quality", "build quality: low, medium or high"),
+        ("denormals", "keep, or flush: denormal numbers count as zero in queries"),
+    ],
+    traits: Traits { counted: false, ..Traits::FOREIGN },
+    variants: &["quality=high", "quality=low"],
+    make: |s| embree(Variant::Plain, s),
+};
 
 static ALL: &[Entry] = &[
     Entry {
@@ -37,6 +91,76 @@ static ALL: &[Entry] = &[
         traits: Traits { linear: true, ..Traits::OWN },
         variants: &["kernel=watertight"],
         make: |s| Ok(Box::new(Sphere { kernel: s.kernel()? })),
+    },
+    Entry {
+        id: "bmssm-dense",
+        description: "the paper's bit maps as plain bit vectors",
+        source: "Skala 1993, §2, §5, appendix",
+        version: own,
+        settings: &bmssm::dense::Settings::NAMES,
+        traits: Traits { by_need: true, linear: true, ..Traits::OWN },
+        variants: &[
+            "resolution=1",
+            "resolution=4",
+            "resolution=3x17x5,simd=portable",
+            "loop=appendix,resolution=8",
+            "mailbox=on",
+            "kernel=watertight",
+        ],
+        make: set!(BmssmDense),
+    },
+    Entry {
+        id: "ssm-list",
+        description: "uniform grid: a counter, a pointer and ids for each cell",
+        source: "Skala 1993, §5",
+        version: own,
+        settings: &ssm::Settings::NAMES,
+        traits: Traits::OWN,
+        variants: &["resolution=1", "resolution=4", "resolution=3x17x5", "density=40", "kernel=watertight"],
+        make: set!(SsmList),
+    },
+    Entry {
+        id: "ssm",
+        description: "compact uniform grid: one index per cell and one number per reference",
+        source: "Lagae & Dutré 2008",
+        version: own,
+        settings: &ssm::Settings::NAMES,
+        traits: Traits::OWN,
+        variants: &[
+            "resolution=1",
+            "resolution=4",
+            "resolution=3x17x5,simd=portable",
+            "density=40",
+            "kernel=watertight",
+        ],
+        make: set!(Ssm),
+    },
+    #[cfg(feature = "embree")]
+    EMBREE,
+    #[cfg(feature = "embree")]
+    Entry {
+        id: "embree-robust",
+        description: "Embree with RTC_SCENE_FLAG_ROBUST",
+        variants: &[],
+        make: |s| embree(Variant::Robust, s),
+        ..EMBREE
+    },
+    #[cfg(feature = "embree")]
+    Entry {
+        id: "embree-compact",
+        description: "Embree with RTC_SCENE_FLAG_COMPACT",
+        variants: &[],
+        make: |s| embree(Variant::Compact, s),
+        ..EMBREE
+    },
+    #[cfg(feature = "embree")]
+    Entry {
+        id: "embree-packet",
+        description: "Embree, coherent packets of 16 rays (rtcIntersect16); rasters only",
+        traits: Traits { lists: false, ..EMBREE.traits },
+        variants: &[],
+        make: |s| embree(Variant::Packet, s),
+        ..EMBREE
     },
 ];
 

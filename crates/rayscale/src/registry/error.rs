@@ -1,7 +1,7 @@
 //! What can be wrong with the naming of a structure.
 
 /// Why no structure comes of a name.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RegistryError {
     /// No structure of this id.
     #[error("there is no structure `{id}`{}", suggest(.near))]
@@ -51,14 +51,9 @@ pub enum RegistryError {
         /// What would be understood.
         expected: String,
     },
-    /// A structure whose library can't be started.
-    #[error("structure `{structure}`: {message}")]
-    Library {
-        /// The structure.
-        structure: String,
-        /// What the library said.
-        message: String,
-    },
+    /// A setting that the structure refused.
+    #[error("structure {0}")]
+    Refused(#[from] accel::BuildError),
 }
 
 impl RegistryError {

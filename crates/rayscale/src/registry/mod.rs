@@ -10,6 +10,7 @@ mod settings;
 pub use error::RegistryError;
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 
+use crate::near::near;
 use accel::Builder;
 
 /// A structure that can be built.
@@ -37,7 +38,7 @@ pub struct Entry {
 pub struct Traits {
     /// Part of the default comparison.
     pub default: bool,
-    /// Uses the suite's kernels: must equal brute force bit for bit.
+    /// Uses the suite's kernels (setting `kernel`): must equal brute force bit for bit.
     pub own_kernel: bool,
     /// Its time per ray grows with the number of objects: it gets fewer rays.
     pub linear: bool,
@@ -135,17 +136,6 @@ pub fn defaults() -> Vec<StructureSpec> {
     all.map(|entry| StructureSpec { id: entry.id.to_owned(), settings: Vec::new() }).collect()
 }
 
-/// Up to three of `known` that look like `word`, nearest first.
-pub(crate) fn near<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let word = word.to_lowercase();
-    let mut near: Vec<(f64, &str)> = known
-        .map(|id| (strsim::jaro_winkler(&word, id), id))
-        .filter(|(likeness, id)| *likeness > 0.75 || (word.len() > 2 && id.contains(&word)))
-        .collect();
-    near.sort_by(|a, b| b.0.total_cmp(&a.0));
-    near.into_iter().take(3).map(|(_, id)| id.to_owned()).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -182,8 +172,9 @@ mod tests {
 
     #[test]
     fn own_structures_take_a_kernel() {
-        for entry in entries().iter().filter(|entry| entry.traits.own_kernel) {
-            assert!(entry.settings.contains(&KERNEL), "{}", entry.id);
+        for entry in entries() {
+            let takes = entry.settings.iter().any(|(name, _)| *name == "kernel");
+            assert_eq!(takes, entry.traits.own_kernel, "{}", entry.id);
         }
         assert_eq!(parse("minmax:kernel=watertight").unwrap().kernel(), "watertight");
     }

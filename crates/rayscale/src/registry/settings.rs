@@ -1,25 +1,18 @@
 //! Settings of a structure as words: `name=value`.
 
-use super::{RegistryError, near};
+use super::RegistryError;
+use crate::near::near;
 use accel::KernelId;
 use accel::simd::Level;
 use std::str::FromStr;
 
-/// A setting that a structure understands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Setting {
-    /// Its name.
-    pub name: &'static str,
-    /// Its values and what they do, in a line.
-    pub help: &'static str,
-}
+/// A setting that a structure understands: its name, and its values in a line.
+pub type Setting = (&'static str, &'static str);
 
 /// The ray-triangle test; see [`Settings::kernel`].
-pub const KERNEL: Setting =
-    Setting { name: "kernel", help: "ray-triangle test: moller-trumbore (default), watertight, …" };
+pub const KERNEL: Setting = ("kernel", "ray-triangle test");
 /// The instruction set; see [`Settings::simd`].
-pub const SIMD: Setting =
-    Setting { name: "simd", help: "portable, avx2, avx512 or neon; the widest present by default" };
+pub const SIMD: Setting = ("simd", "instruction set");
 
 /// A structure by name with settings, as written: `id` or `id:name=value,name=value`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -85,12 +78,12 @@ impl<'a> Settings<'a> {
     /// [`RegistryError::UnknownSetting`] with near names.
     pub fn new(spec: &'a StructureSpec, known: &[Setting]) -> Result<Self, RegistryError> {
         for (name, _) in &spec.settings {
-            if !known.iter().any(|setting| setting.name == name) {
+            if !known.iter().any(|(known, _)| known == name) {
                 return Err(RegistryError::UnknownSetting {
                     structure: spec.id.clone(),
                     setting: name.clone(),
-                    near: near(name, known.iter().map(|s| s.name)),
-                    known: known.iter().map(|s| s.name.to_owned()).collect(),
+                    near: near(name, known.iter().map(|(name, _)| *name)),
+                    known: known.iter().map(|(name, _)| (*name).to_owned()).collect(),
                 });
             }
         }
@@ -124,45 +117,9 @@ impl<'a> Settings<'a> {
             .transpose()
     }
 
-    /// A number.
-    ///
-    /// # Errors
-    /// As [`Settings::read`].
-    pub fn number<T: FromStr>(&self, name: &str) -> Result<Option<T>, RegistryError> {
-        self.read(name, "a number", |value| value.parse().ok())
-    }
-
-    /// `true` or `false`.
-    ///
-    /// # Errors
-    /// As [`Settings::read`].
-    pub fn flag(&self, name: &str) -> Result<Option<bool>, RegistryError> {
-        self.read(name, "true or false", |value| value.parse().ok())
-    }
-
-    /// Slices per axis: `64` for all, or `64x32x1`.
-    ///
-    /// # Errors
-    /// As [`Settings::read`].
-    pub fn resolution(&self, name: &str) -> Result<Option<[u32; 3]>, RegistryError> {
-        self.read(name, "slices per axis such as 64 or 64x32x1, each at least 1", |value| {
-            let each: Option<Vec<u32>> =
-                value.split('x').map(|n| n.parse().ok().filter(|n| *n > 0)).collect();
-            match each?[..] {
-                [n] => Some([n; 3]),
-                [x, y, z] => Some([x, y, z]),
-                _ => None,
-            }
-        })
-    }
-
-    /// One of some words.
-    ///
-    /// # Errors
-    /// As [`Settings::read`].
-    pub fn word(&self, name: &str, words: &[&'static str]) -> Result<Option<&'static str>, RegistryError> {
-        let expected = format!("one of {}", words.join(", "));
-        self.read(name, &expected, |value| words.iter().find(|word| **word == value).copied())
+    /// Names and values as written.
+    pub fn pairs(&self) -> impl Iterator<Item = (&'a str, &'a str)> {
+        self.0.settings.iter().map(|(name, value)| (name.as_str(), value.as_str()))
     }
 
     /// The ray-triangle test; Möller–Trumbore by default.
@@ -203,20 +160,16 @@ mod tests {
 
     #[test]
     fn values_are_typed() {
-        let known = [Setting { name: "n", help: "" }, KERNEL, SIMD];
+        let known = [("n", ""), KERNEL, SIMD];
         let with = |text: &str, test: &dyn Fn(Settings)| {
             let spec = text.parse().unwrap();
             test(Settings::new(&spec, &known).unwrap());
         };
-        with("x:n=4", &|s| assert_eq!(s.resolution("n").unwrap(), Some([4; 3])));
-        with("x:n=4x5x6", &|s| assert_eq!(s.resolution("n").unwrap(), Some([4, 5, 6])));
-        for bad in ["x:n=0", "x:n=4x5", "x:n=-1", "x:n=1x0x1"] {
-            with(bad, &|s| assert!(s.resolution("n").is_err(), "{bad}"));
-        }
         with("x:kernel=watertight", &|s| assert_eq!(s.kernel().unwrap(), KernelId::Watertight));
         with("x:kernel=water", &|s| assert!(s.kernel().unwrap_err().to_string().contains("moller-trumbore")));
         with("x:simd=portable", &|s| assert_eq!(s.simd().unwrap(), Level::Portable));
-        with("x", &|s| assert_eq!(s.number::<f32>("n").unwrap(), None));
+        with("x:n=4", &|s| assert_eq!(s.read("n", "a number", |n| n.parse().ok()).unwrap(), Some(4)));
+        with("x:n=?", &|s| assert!(s.read("n", "a number", |n| n.parse::<u32>().ok()).is_err()));
     }
 
     #[test]
