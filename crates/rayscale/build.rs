@@ -1,6 +1,7 @@
 //! Embeds the scene definitions, and lets the binary find Embree when it is called directly.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::{env, fs};
 
 fn main() {
@@ -10,6 +11,29 @@ fn main() {
         println!("cargo::rustc-link-arg=-Wl,-rpath,{dir}");
     }
     list_scenes();
+    describe_build();
+}
+
+/// What records say of the program: commit, profile, compiler and its flags.
+fn describe_build() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let git = |args: &[&str]| {
+        let output = Command::new("git").arg("-C").arg(&root).args(args).output().ok()?;
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_default();
+    let dirty = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|files| !files.is_empty());
+    // Named only where it exists: cargo runs a script anew each time for a file that does not.
+    if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]).map(|log| root.join(log)).filter(|l| l.exists()) {
+        println!("cargo::rerun-if-changed={}", log.display());
+    }
+    let rustc = env::var_os("RUSTC").and_then(|rustc| Command::new(rustc).arg("--version").output().ok());
+    let rustc = rustc.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned()).unwrap_or_default();
+    println!("cargo::rustc-env=RAYSCALE_GIT={commit}{}", if dirty { "+" } else { "" });
+    println!("cargo::rustc-env=RAYSCALE_RUSTC={rustc}");
+    println!("cargo::rustc-env=RAYSCALE_PROFILE={}", env::var("PROFILE").unwrap_or_default());
+    let flags = env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default().replace('\u{1f}', " ");
+    println!("cargo::rustc-env=RAYSCALE_RUSTFLAGS={flags}");
 }
 
 /// Lists the definitions under `scenes/`: a scene is added by adding its file.

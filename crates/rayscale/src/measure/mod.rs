@@ -7,12 +7,16 @@
 
 mod build;
 mod guard;
+mod memory;
 mod scene;
+mod session;
 #[cfg(test)]
 mod tests;
 mod trace;
 
+pub use memory::{RESOLUTIONS, memory_rows};
 pub use scene::{Job, measure};
+pub use session::{Session, run, workloads};
 
 use accel::simd::Level;
 use std::time::Duration;

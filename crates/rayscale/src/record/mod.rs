@@ -3,10 +3,12 @@
 mod cell;
 mod file;
 mod memory;
+mod suite;
 
 pub use cell::{Bytes, Cell, Check, Errors, Key, Query, Timing};
 pub use file::{RecordError, read, write};
 pub use memory::{Layout, MemoryRow};
+pub use suite::Suite;
 
 use crate::machine::Machine;
 use serde::{Deserialize, Serialize};
@@ -39,21 +41,6 @@ pub struct Record {
     /// Structures and scenes left out, with the reason.
     #[serde(default)]
     pub skipped: Vec<Skipped>,
-}
-
-/// The program that made a record.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Suite {
-    /// Version of the package.
-    pub version: String,
-    /// Commit, with `+` behind it where files differed; empty where there is no git.
-    pub git: String,
-    /// Build profile.
-    pub profile: String,
-    /// Flags given to the compiler.
-    pub rustflags: String,
-    /// Compiler's version.
-    pub rustc: String,
 }
 
 /// A structure as measured.

@@ -4,6 +4,7 @@ use super::{Absent, Entry, KERNEL, SIMD, Traits};
 use super::{RegistryError, Settings};
 use accel::Builder;
 use accel::baseline::{Brute, MinMax, Sphere};
+use adapter_obvhs::{ObvhsBuilder, Preset, Variant as Tree};
 #[cfg(feature = "embree")]
 use adapter_embree::{Denormals, EmbreeBuilder, Quality, Variant};
 use bmssm::dense::BmssmDense;
@@ -22,6 +23,29 @@ macro_rules! set {
             Ok(Box::new(builder))
         }
     };
+}
+
+fn obvhs(tree: Tree, settings: &Settings) -> Result<Box<dyn Builder>, RegistryError> {
+    let preset = settings.read("preset", "fastest, medium or very-slow", Preset::from_id)?;
+    Ok(Box::new(ObvhsBuilder { preset: preset.unwrap_or_default(), ..ObvhsBuilder::new(tree) }))
+}
+
+const OBVHS: Entry = Entry {
+    id: "obvhs-bvh2",
+    description: "obvhs' binary BVH",
+    source: "obvhs",
+    version: obvhs_version,
+    settings: &[("preset", "time for the build: fastest, medium or very-slow")],
+    traits: Traits::FOREIGN,
+    variants: &["preset=fastest", "preset=very-slow"],
+    make: |s| obvhs(Tree::Bvh2, s),
+};
+
+/// The version that the lock file pins.
+fn obvhs_version() -> String {
+    let lock = include_str!("../../../../Cargo.lock");
+    let version = lock.split("name = \"obvhs\"\nversion = \"").nth(1).and_then(|rest| rest.split('"').next());
+    version.unwrap_or("unknown").to_owned()
 }
 
 #[cfg(feature = "embree")]
@@ -134,6 +158,14 @@ static ALL: &[Entry] = &[
             "kernel=watertight",
         ],
         make: set!(Ssm),
+    },
+    OBVHS,
+    Entry {
+        id: "obvhs-cwbvh",
+        description: "obvhs' compressed wide BVH",
+        source: "Ylitie, Karras & Laine 2017, obvhs",
+        make: |s| obvhs(Tree::CwBvh, s),
+        ..OBVHS
     },
     #[cfg(feature = "embree")]
     EMBREE,

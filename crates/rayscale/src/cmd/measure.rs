@@ -1,0 +1,126 @@
+//! `rayscale measure`: a record.
+
+use super::selection::Selection;
+use super::{Console, Error, Outcome, Verb};
+use crate::measure::{self, Options, Session};
+use crate::rays::RaysId;
+use crate::record::{self, Record};
+use crate::registry;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Check and measure; write everything to a record
+///
+/// Structures take turns, round by round. The answers of every sample are checked. One thread builds and
+/// traces unless --threads says otherwise.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  rayscale measure --out record.json
+  rayscale measure --scene small-100k --rays parallel,random --structure embree --structure ssm --out a.json
+  rayscale measure --scene model.obj --counters --out model.json")]
+pub struct Measure {
+    #[command(flatten)]
+    selection: Selection,
+    #[command(flatten)]
+    effort: Effort,
+    /// The record to write
+    #[arg(short, long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+/// How much is measured.
+#[derive(Clone, Debug, Args)]
+pub struct Effort {
+    /// Most samples of a cell
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=10_000))]
+    pub rounds: u16,
+    /// Spend about so long in all: samples get fewer, and scenes that no time is left for are skipped
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_seconds: Option<u32>,
+    /// Count steps per ray, in a run of its own
+    #[arg(long)]
+    pub counters: bool,
+    /// Leave out memory by resolution
+    #[arg(long)]
+    pub no_memory: bool,
+}
+
+impl Verb for Measure {
+    fn run(&self, console: &Console) -> Result<Outcome, Error> {
+        let record = measure(console, &self.selection, &self.effort, &self.out)?;
+        let failed = failures(&record);
+        let cells = record.cells.len();
+        console.result(
+            &serde_json::json!({ "record": self.out, "cells": cells, "failed": failed.len() }),
+            format_args!("{}: {cells} cells, {} of them failed", self.out.display(), failed.len()),
+        )?;
+        failed.iter().for_each(|line| console.note(line));
+        Ok(if failed.is_empty() { Outcome::Done } else { Outcome::Failed })
+    }
+}
+
+/// Measures a selection and writes the record, anew after every scene.
+pub fn measure(
+    console: &Console,
+    selection: &Selection,
+    effort: &Effort,
+    out: &Path,
+) -> Result<Record, Error> {
+    let choices = selection.structures(&registry::defaults())?;
+    let defaults = Options::default();
+    let session = Session {
+        scenes: selection.scenes()?,
+        rays: selection.rays(&RaysId::MEASURED)?,
+        size: selection.size,
+        seed: selection.seed,
+        options: Options {
+            threads: console.threads().unwrap_or(1),
+            rounds: usize::from(effort.rounds),
+            least_rounds: defaults.least_rounds.min(usize::from(effort.rounds)),
+            counters: effort.counters,
+            ..defaults
+        },
+        memory: !effort.no_memory,
+        most_time: effort.max_seconds.map(|s| Duration::from_secs(s.into())),
+        command: command(),
+    };
+    let steps = session.scenes.len() * session.rays.len();
+    let bar = console.bar(steps as u64, "measuring");
+    let mut unwritten = None;
+    let record = console.in_pool(1, || {
+        let tell = |line: &str| {
+            if line.starts_with(' ') {
+                bar.inc(1);
+            }
+            if bar.is_hidden() {
+                console.note(line);
+            } else {
+                bar.set_message(line.trim().to_owned());
+            }
+        };
+        measure::run(&session, &choices, tell, |record| unwritten = record::write(out, record).err())
+    })??;
+    bar.finish_and_clear();
+    // What was measured is shown even where it can't be written; the error comes last.
+    if unwritten.is_some() || record.scenes.is_empty() {
+        record::write(out, &record)?;
+    }
+    Ok(record)
+}
+
+/// The command line as given.
+fn command() -> String {
+    let words = std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
+    std::iter::once("rayscale".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// A line for each cell that failed for another reason than that the structure doesn't serve it.
+pub fn failures(record: &Record) -> Vec<String> {
+    let failed = record.cells.iter().filter_map(|cell| {
+        let error = cell.error.as_ref()?;
+        (!error.contains(" does not serve "))
+            .then(|| format!("{} {} {}: {error}", cell.scene, cell.rays, cell.structure))
+    });
+    failed.collect()
+}

@@ -1,0 +1,72 @@
+//! ν_mem of a scene by resolution, three ways.
+
+use super::guard::guard;
+use crate::record::{Layout, MemoryRow};
+use crate::registry;
+use accel::{Footprint, Group, Need, Scene};
+
+/// The resolutions of reports.
+pub const RESOLUTIONS: [u32; 5] = [8, 16, 32, 64, 128];
+
+/// A row for each resolution: the paper's formulas for the references that a grid registers, its
+/// layouts as built, and the compact layouts as built.
+pub fn memory_rows(scene: &Scene, resolutions: &[u32]) -> Vec<MemoryRow> {
+    resolutions.iter().map(|n| row(scene, *n)).collect()
+}
+
+fn row(scene: &Scene, n: u32) -> MemoryRow {
+    let objects = scene.geometry.len() as u64;
+    let cells = f64::from(n).powi(3);
+    let built = |id: &str| footprint(scene, id, n);
+    let (list, dense) = (built("ssm-list"), built("bmssm-dense"));
+    let (compact, sparse) = (built("ssm"), built("bmssm"));
+    let references = match (&compact, &list) {
+        (Ok(grid), _) => part(grid, "references") / 4.0,
+        (_, Ok(grid)) => part(grid, "ids") / if objects <= 1 << 16 { 2.0 } else { 4.0 },
+        _ => f64::NAN,
+    };
+    let per_cell = if references.is_finite() { references / cells } else { 0.0 };
+    let mut row = MemoryRow::by_formula(&scene.id, objects, n, per_cell);
+    let layout = |grid: &Result<Footprint, String>, maps: &Result<Footprint, String>| match (grid, maps) {
+        (Ok(grid), Ok(maps)) => Some(Layout { ssm: added(grid), bmssm: added(maps) }),
+        _ => None,
+    };
+    row.paper_layouts = layout(&list, &dense);
+    row.compact_layouts = layout(&compact, &sparse);
+    row.error = [list, dense, compact, sparse].into_iter().find_map(Result::err);
+    row
+}
+
+fn footprint(scene: &Scene, id: &str, n: u32) -> Result<Footprint, String> {
+    let choice = registry::parse(&format!("{id}:resolution={n}")).map_err(|error| error.to_string())?;
+    let built = guard("the build", || choice.builder.build(scene, &Need::GENERAL))?;
+    built.map(|accel| accel.footprint()).map_err(|error| error.to_string())
+}
+
+fn added(footprint: &Footprint) -> f64 {
+    footprint.bytes(Group::Structure) as f64
+}
+
+fn part(footprint: &Footprint, name: &str) -> f64 {
+    footprint.parts.iter().filter(|part| part.name == name).map(|part| part.bytes as f64).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn the_layouts_as_built_follow_the_formulas() {
+        let (scene, _) = testing::cloud(2000, 1);
+        for row in memory_rows(&scene, &[8, 16]) {
+            let built = row.paper_layouts.unwrap();
+            // The list's pointers have 4 bytes where the formula has 2.
+            let cells = f64::from(row.resolution).powi(3);
+            assert_eq!(built.ssm, row.formula_2_byte.ssm + 2.0 * cells, "N = {}", row.resolution);
+            let maps = built.bmssm / row.formula_2_byte.bmssm;
+            assert!((1.0..1.2).contains(&maps), "whole words: {maps}");
+            assert!(row.refs_per_cell > 0.0);
+        }
+    }
+}
