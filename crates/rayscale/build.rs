@@ -22,13 +22,17 @@ fn describe_build() {
         output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
     };
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_default();
-    let dirty = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|files| !files.is_empty());
+    let dirty =
+        git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|files| !files.is_empty());
     // Named only where it exists: cargo runs a script anew each time for a file that does not.
-    if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]).map(|log| root.join(log)).filter(|l| l.exists()) {
+    if let Some(log) =
+        git(&["rev-parse", "--git-path", "logs/HEAD"]).map(|log| root.join(log)).filter(|l| l.exists())
+    {
         println!("cargo::rerun-if-changed={}", log.display());
     }
     let rustc = env::var_os("RUSTC").and_then(|rustc| Command::new(rustc).arg("--version").output().ok());
-    let rustc = rustc.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned()).unwrap_or_default();
+    let rustc =
+        rustc.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned()).unwrap_or_default();
     println!("cargo::rustc-env=RAYSCALE_GIT={commit}{}", if dirty { "+" } else { "" });
     println!("cargo::rustc-env=RAYSCALE_RUSTC={rustc}");
     println!("cargo::rustc-env=RAYSCALE_PROFILE={}", env::var("PROFILE").unwrap_or_default());

@@ -15,6 +15,7 @@ pub mod rays;
 pub mod rayset;
 pub mod record;
 pub mod registry;
+pub mod report;
 pub mod scene;
 pub mod stats;
 #[cfg(test)]

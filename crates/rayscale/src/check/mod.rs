@@ -2,6 +2,7 @@
 
 mod errors;
 mod reference;
+pub mod sweep;
 #[cfg(test)]
 mod tests;
 

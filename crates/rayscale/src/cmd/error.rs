@@ -1,6 +1,9 @@
 //! What can go wrong at the command line: what, where, and what to do about it.
 
 use crate::near::near;
+use crate::rays::RaysError;
+use crate::record::RecordError;
+use crate::registry::RegistryError;
 use crate::scene::SceneError;
 use accel::BuildError;
 use std::fmt::Display;
@@ -43,6 +46,15 @@ pub enum Error {
     /// A scene that can't be had.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A structure that can't be had.
+    #[error(transparent)]
+    Registry(#[from] RegistryError),
+    /// Rays that can't be made.
+    #[error(transparent)]
+    Rays(#[from] RaysError),
+    /// A record that can't be read or written.
+    #[error(transparent)]
+    Record(#[from] RecordError),
 }
 
 impl Error {
@@ -76,7 +88,14 @@ impl Error {
             Self::Usage { todo, .. } => Some(todo.clone()),
             Self::Build(BuildError::Unsupported { .. }) => Some("choose another structure".into()),
             Self::Scene(error) => error.hint().map(str::to_owned),
-            Self::Io { .. } | Self::Build(_) => None,
+            Self::Registry(RegistryError::Unknown { .. }) => {
+                Some("`rayscale structures` lists what there is".into())
+            }
+            Self::Registry(RegistryError::Absent { .. }) => {
+                Some("run `cargo xtask setup`, then build again".into())
+            }
+            Self::Registry(_) => Some("`rayscale structures` lists the settings of each structure".into()),
+            Self::Record(_) | Self::Io { .. } | Self::Rays(_) | Self::Build(_) => None,
         }
     }
 

@@ -29,6 +29,9 @@ pub struct Measure {
     out: PathBuf,
 }
 
+/// Rows and columns of rasters.
+const SIZE: u32 = 256;
+
 /// How much is measured.
 #[derive(Clone, Debug, Args)]
 pub struct Effort {
@@ -72,7 +75,7 @@ pub fn measure(
     let session = Session {
         scenes: selection.scenes()?,
         rays: selection.rays(&RaysId::MEASURED)?,
-        size: selection.size,
+        size: selection.size.unwrap_or(SIZE),
         seed: selection.seed,
         options: Options {
             threads: console.threads().unwrap_or(1),
@@ -111,7 +114,8 @@ pub fn measure(
 
 /// The command line as given.
 fn command() -> String {
-    let words = std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
+    let words =
+        std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
     std::iter::once("rayscale".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 

@@ -5,9 +5,17 @@
 //!
 //! Exit codes: 0 done, 1 a check failed, 2 bad usage or input.
 
+mod check;
+mod cmp;
+mod compare;
 mod completions;
 mod console;
+mod diff;
 mod error;
+mod measure;
+mod rank;
+mod report;
+mod selection;
 mod welcome;
 
 pub use console::Console;
@@ -44,12 +52,26 @@ pub struct Global {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Compare(compare::Compare),
+    Check(check::Check),
+    Measure(measure::Measure),
+    Report(report::Report),
+    Cmp(cmp::Cmp),
+    Rank(rank::Rank),
+    Diff(diff::Diff),
     Completions(completions::Completions),
 }
 
 impl Command {
     fn verb(&self) -> &dyn Verb {
         match self {
+            Self::Compare(verb) => verb,
+            Self::Check(verb) => verb,
+            Self::Measure(verb) => verb,
+            Self::Report(verb) => verb,
+            Self::Cmp(verb) => verb,
+            Self::Rank(verb) => verb,
+            Self::Diff(verb) => verb,
             Self::Completions(verb) => verb,
         }
     }

@@ -58,9 +58,8 @@ impl Verb for Rank {
         let record = record::read(&self.record)?;
         let cells = record.cells.iter().filter(|c| self.filter.takes(c) || c.structure == self.to);
         let cells = cells.filter(|c| Filter { structures: Vec::new(), ..self.filter.clone() }.takes(c));
-        let ranking = rank(cells, &self.to, self.measure).map_err(|error| {
-            Error::usage(error.to_string(), "`rayscale cmp` shows what the record holds")
-        })?;
+        let ranking = rank(cells, &self.to, self.measure)
+            .map_err(|error| Error::usage(error.to_string(), "`rayscale cmp` shows what the record holds"))?;
         console.result(&ranking, text(&ranking).trim_end())?;
         Ok(Outcome::Done)
     }

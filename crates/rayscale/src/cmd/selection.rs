@@ -22,9 +22,9 @@ pub struct Selection {
     /// The ray-triangle test of the suite's own structures
     #[arg(long, value_name = "ID")]
     pub kernel: Option<String>,
-    /// Rows and columns of rasters; lists have as many rays
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=8192))]
-    pub size: u32,
+    /// Rows and columns of rasters; lists have as many rays. 256, or what fits a full run
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
+    pub size: Option<u32>,
     /// Seed of lists of rays
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
@@ -78,7 +78,8 @@ impl Selection {
                 Some(KernelId::from_id(id).ok_or_else(unknown)?)
             }
         };
-        let asked: Result<Vec<StructureSpec>, RegistryError> = self.structures.iter().map(|s| s.parse()).collect();
+        let asked: Result<Vec<StructureSpec>, RegistryError> =
+            self.structures.iter().map(|s| s.parse()).collect();
         let asked = asked.map_err(Error::from)?;
         let specs = if asked.is_empty() { otherwise } else { &asked };
         let choose = |spec: &StructureSpec| -> Result<Choice, Error> {

@@ -14,6 +14,7 @@ mod session;
 mod tests;
 mod trace;
 
+pub use guard::guard;
 pub use memory::{RESOLUTIONS, memory_rows};
 pub use scene::{Job, measure};
 pub use session::{Session, run, workloads};

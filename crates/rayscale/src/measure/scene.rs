@@ -115,7 +115,7 @@ fn ray_set(
     let mut runners = Vec::new();
     let mut cells = Vec::new();
     for (choice, built) in entrants {
-        let rays = if choice.entry.traits.linear { &thinned } else { &workload.rays };
+        let rays = if choice.entry.traits.thins(&workload.rays) { &thinned } else { &workload.rays };
         let mut cell = blank(job, workload, choice, built, rays);
         match &built.accel {
             Err(error) => cell.error = Some(error.clone()),

@@ -1,8 +1,8 @@
 //! A whole run: scenes by name to a record.
 
+use super::Options;
 use super::memory::{RESOLUTIONS, memory_rows};
 use super::scene::{Job, measure};
-use super::Options;
 use crate::machine::Machine;
 use crate::rays::{self, RaysId, RaysSpec};
 use crate::rayset::Workload;
@@ -119,18 +119,19 @@ fn blank(session: &Session, choices: &[Choice]) -> Record {
 
 /// The ray sets of a scene; one that has no rays there is skipped.
 pub fn workloads(session: &Session, scene: &Scene, skipped: &mut Vec<Skipped>) -> Vec<Workload> {
-    let mut tracer = None;
+    let tracer = tracer_of(scene);
     let mut all = Vec::new();
     for id in &session.rays {
-        let tracer = tracer.get_or_insert_with(|| tracer_of(scene)).as_ref();
         let spec = RaysSpec { id: *id, rows: session.size, cols: session.size, seed: session.seed };
         let query = match id.query() {
             rays::Query::Closest => Query::Closest,
             rays::Query::Occlusion => Query::Occluded,
         };
-        match rays::generate(scene, &spec, tracer) {
+        match rays::generate(scene, &spec, tracer.as_ref()) {
             Ok(rays) => all.push(Workload { id: id.to_string(), rays, query }),
-            Err(error) => skipped.push(Skipped { id: format!("{}/{id}", scene.id), reason: error.to_string() }),
+            Err(error) => {
+                skipped.push(Skipped { id: format!("{}/{id}", scene.id), reason: error.to_string() })
+            }
         }
     }
     all
@@ -138,7 +139,8 @@ pub fn workloads(session: &Session, scene: &Scene, skipped: &mut Vec<Skipped>) -
 
 /// Something quick that answers what brute force would, for rays that start from hits.
 fn tracer_of(scene: &Scene) -> Box<dyn Accel + '_> {
-    let grid = registry::parse("ssm").ok().and_then(|choice| choice.builder.build(scene, &Need::GENERAL).ok());
+    let grid =
+        registry::parse("ssm").ok().and_then(|choice| choice.builder.build(scene, &Need::GENERAL).ok());
     grid.unwrap_or_else(|| {
         let brute = registry::parse("brute").expect("brute force is an entry");
         brute.builder.build(scene, &Need::GENERAL).expect("brute force serves every scene")

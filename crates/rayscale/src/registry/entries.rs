@@ -4,9 +4,9 @@ use super::{Absent, Entry, KERNEL, SIMD, Traits};
 use super::{RegistryError, Settings};
 use accel::Builder;
 use accel::baseline::{Brute, MinMax, Sphere};
-use adapter_obvhs::{ObvhsBuilder, Preset, Variant as Tree};
 #[cfg(feature = "embree")]
 use adapter_embree::{Denormals, EmbreeBuilder, Quality, Variant};
+use adapter_obvhs::{ObvhsBuilder, Preset, Variant as Tree};
 use bmssm::dense::BmssmDense;
 use ssm::{Ssm, SsmList};
 

@@ -11,7 +11,7 @@ pub use error::RegistryError;
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 
 use crate::near::near;
-use accel::Builder;
+use accel::{Builder, RaySet};
 
 /// A structure that can be built.
 pub struct Entry {
@@ -56,6 +56,14 @@ impl Traits {
         Self { default: true, own_kernel: true, linear: false, by_need: false, lists: true, counted: true };
     /// A structure from elsewhere with a ray-triangle test of its own.
     pub const FOREIGN: Self = Self { own_kernel: false, ..Self::OWN };
+}
+
+impl Traits {
+    /// Whether such a structure is given fewer rays than the set has. A raster that it was built for
+    /// is traced as it is.
+    pub fn thins(&self, rays: &RaySet) -> bool {
+        self.linear && !(self.by_need && matches!(rays, RaySet::Raster(_)))
+    }
 }
 
 /// A structure that this program was built without.
@@ -134,6 +142,15 @@ pub fn parse(text: &str) -> Result<Choice, RegistryError> {
 pub fn defaults() -> Vec<StructureSpec> {
     let all = entries().iter().filter(|entry| entry.traits.default);
     all.map(|entry| StructureSpec { id: entry.id.to_owned(), settings: Vec::new() }).collect()
+}
+
+/// The structures that pass `takes`, each by its defaults and by its variants.
+pub fn with_variants(takes: impl Fn(&Entry) -> bool) -> Vec<StructureSpec> {
+    let entries = entries().iter().filter(|entry| takes(entry));
+    let texts = entries.flat_map(|entry| {
+        std::iter::once(&"").chain(entry.variants).map(move |settings| format!("{}:{settings}", entry.id))
+    });
+    texts.map(|text| text.parse().expect("variants are settings")).collect()
 }
 
 #[cfg(test)]

@@ -1,0 +1,13 @@
+//! Reports, made from a record alone.
+
+mod csv;
+mod markdown;
+mod memory;
+mod splice;
+pub mod table;
+#[cfg(test)]
+mod tests;
+
+pub use csv::write_csv;
+pub use markdown::markdown;
+pub use splice::{BEGIN, END, SpliceError, splice, summary};
