@@ -20,13 +20,10 @@ fn row(scene: &Scene, n: u32) -> MemoryRow {
     let built = |id: &str| footprint(scene, id, n);
     let (list, dense) = (built("ssm-list"), built("bmssm-dense"));
     let (compact, sparse) = (built("ssm"), built("bmssm"));
-    let references = match (&compact, &list) {
-        (Ok(grid), _) => part(grid, "references") / 4.0,
-        (_, Ok(grid)) => part(grid, "ids") / if objects <= 1 << 16 { 2.0 } else { 4.0 },
-        _ => f64::NAN,
-    };
-    let per_cell = if references.is_finite() { references / cells } else { 0.0 };
-    let mut row = MemoryRow::by_formula(&scene.id, objects, n, per_cell);
+    // The compact grid may share a reference between objects, so the lists say how many there are.
+    let bytes_each = if objects <= 1 << 16 { 2.0 } else { 4.0 };
+    let references = list.as_ref().map_or(0.0, |list| part(list, "ids") / bytes_each);
+    let mut row = MemoryRow::by_formula(&scene.id, objects, n, references / cells);
     let layout = |grid: &Result<Footprint, String>, maps: &Result<Footprint, String>| match (grid, maps) {
         (Ok(grid), Ok(maps)) => Some(Layout { ssm: added(grid), bmssm: added(maps) }),
         _ => None,
