@@ -197,8 +197,9 @@ pub(crate) fn splat_corners<S: Simd>(s: S, group: &[Row], lane: usize) -> [Vec3L
     [splat_row3(s, &rows[..3], lane), splat_row3(s, &rows[3..6], lane), splat_row3(s, &rows[6..], lane)]
 }
 
+/// Three packed values of one lane in all lanes.
 #[inline(always)]
-fn splat_row3<S: Simd>(s: S, rows: &[Row], lane: usize) -> Vec3Lanes<S> {
+pub(crate) fn splat_row3<S: Simd>(s: S, rows: &[Row], lane: usize) -> Vec3Lanes<S> {
     [s.splat(rows[0].0[lane]), s.splat(rows[1].0[lane]), s.splat(rows[2].0[lane])]
 }
 

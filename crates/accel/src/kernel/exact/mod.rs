@@ -24,7 +24,7 @@ mod tests;
 use super::wide::{OneRay, OneTriangle, RayRows};
 use super::{Corners, Kernel, KernelId, load_corners, splat_corners};
 use crate::Ray;
-use crate::packet::{Lanes, Packet};
+use crate::packet::{Common, Lanes, Packet};
 use crate::simd::{Row, Scalar, Simd};
 use std::cmp::Ordering;
 
@@ -78,12 +78,29 @@ impl Kernel for Exact {
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
         let open = reject::open(s, &rays.rays, &rays.span, splat_corners(s, group, lane), t_max);
-        if open == 0 {
-            return nothing(s);
-        }
-        // Else the compiler loads the corners once for here and above, and by a gather.
-        let pairs = OneTriangle::new(&rays.rows, std::hint::black_box(group), lane);
-        in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
+        one_triangle(s, rays, group, lane, open, t_max)
+    }
+
+    const PREPARED_ROWS: usize = reject::PREPARED_ROWS;
+
+    #[inline(always)]
+    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
+        reject::prepare(s, common, load_corners(s, group, at), rows, at);
+    }
+
+    #[inline(always)]
+    fn rays_prepared<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        common: &Common,
+        group: &[Row],
+        rows: &[Row],
+        lane: usize,
+        t_max: S::F,
+    ) -> Lanes<S> {
+        let prepared = reject::Prepared { common, group, rows, lane };
+        let open = reject::open_prepared(s, &rays.rays, &rays.span, prepared, t_max);
+        one_triangle(s, rays, group, lane, open, t_max)
     }
 
     fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
@@ -94,6 +111,24 @@ impl Kernel for Exact {
         let t = |corners| crate::exact::intersect(&line, corners).map(|hit| hit.t);
         t(a).cmp(&t(b))
     }
+}
+
+/// Decides the rays `open` against the triangle in a lane.
+#[inline(always)]
+fn one_triangle<S: Simd>(
+    s: S,
+    rays: &SpannedLanes<S>,
+    group: &[Row],
+    lane: usize,
+    open: u32,
+    t_max: S::F,
+) -> Lanes<S> {
+    if open == 0 {
+        return nothing(s);
+    }
+    // Else the compiler loads the corners once for here and for the rejection, and by a gather.
+    let pairs = OneTriangle::new(&rays.rows, std::hint::black_box(group), lane);
+    in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
 }
 
 #[inline(always)]

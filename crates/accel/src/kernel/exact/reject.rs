@@ -14,9 +14,9 @@
 //! bounds themselves and that of the comparisons of t. With 2^-30 ≤ D ≤ 2^30 and S + L < 2^45 nothing overflows, and underflows
 //! add less than [`TINY`] to each. Beyond those sizes nothing is rejected here.
 
-use crate::kernel::{cross3, dot3, sub3};
-use crate::packet::{Packet, Vec3Lanes};
-use crate::simd::{Scalar, Simd};
+use crate::kernel::{cross3, dot3, splat_row3, store_rows, sub3};
+use crate::packet::{Common, Packet, Vec3Lanes, splat3};
+use crate::simd::{Row, Scalar, Simd};
 
 const BOUND: f32 = 64.0 * f32::EPSILON / 2.0;
 
@@ -60,6 +60,22 @@ fn largest3<S: Simd>(s: S, v: Vec3Lanes<S>) -> S::F {
     s.max(s.max(s.abs(v[0]), s.abs(v[1])), s.abs(v[2]))
 }
 
+/// What the test of a lane is made of.
+#[derive(Clone, Copy)]
+struct Parts<S: Simd> {
+    edge2: Vec3Lanes<S>,
+    from_a: Vec3Lanes<S>,
+    /// Direction × second edge.
+    p: Vec3Lanes<S>,
+    /// Relative origin × first edge.
+    q: Vec3Lanes<S>,
+    det: S::F,
+    /// Largest component of the edges: L.
+    length: S::F,
+    /// Sum of the components of the relative origin: S.
+    distance: S::F,
+}
+
 /// The lanes that may be hit at t up to `t_max`, as bits. NaN, as in empty lanes, is not.
 #[inline(always)]
 pub(super) fn open<S: Simd>(
@@ -69,18 +85,122 @@ pub(super) fn open<S: Simd>(
     [a, b, c]: [Vec3Lanes<S>; 3],
     t_max: S::F,
 ) -> u32 {
-    let edge1 = sub3(s, b, a);
-    let edge2 = sub3(s, c, a);
+    let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
     let from_a = sub3(s, ray.origin, a);
     let p = cross3(s, ray.direction, edge2);
-    let det = dot3(s, edge1, p);
+    let parts = Parts {
+        edge2,
+        from_a,
+        p,
+        q: cross3(s, from_a, edge1),
+        det: dot3(s, edge1, p),
+        length: length(s, edge1, edge2),
+        distance: distance(s, from_a),
+    };
+    undecided(s, ray, span, &parts, t_max)
+}
+
+/// Rows that [`prepare`] writes.
+pub(super) const PREPARED_ROWS: usize = 15;
+
+/// Writes the parts that are the same for all rays with this in common: in rows 0–5 the edges, in
+/// row 13 their length, and from row 6 on p and the determinant or the relative origin, q and the distance.
+#[inline(always)]
+pub(super) fn prepare<S: Simd>(
+    s: S,
+    common: &Common,
+    [a, b, c]: [Vec3Lanes<S>; 3],
+    rows: &mut [Row],
+    at: usize,
+) {
+    let rows = &mut rows[..PREPARED_ROWS];
+    let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
+    store_rows(s, edge1, &mut rows[0..3], at);
+    store_rows(s, edge2, &mut rows[3..6], at);
+    s.store(length(s, edge1, edge2), &mut rows[13].0[at..]);
+    match common {
+        Common::Direction(direction) => {
+            let p = cross3(s, splat3(s, *direction), edge2);
+            store_rows(s, p, &mut rows[6..9], at);
+            s.store(dot3(s, edge1, p), &mut rows[12].0[at..]);
+        }
+        Common::Origin(origin) => {
+            let from_a = sub3(s, splat3(s, *origin), a);
+            store_rows(s, from_a, &mut rows[6..9], at);
+            store_rows(s, cross3(s, from_a, edge1), &mut rows[9..12], at);
+            s.store(distance(s, from_a), &mut rows[14].0[at..]);
+        }
+    }
+}
+
+/// The triangle in a lane of a group, prepared.
+#[derive(Clone, Copy)]
+pub(super) struct Prepared<'a> {
+    pub common: &'a Common,
+    pub group: &'a [Row],
+    pub rows: &'a [Row],
+    pub lane: usize,
+}
+
+/// [`open`] for a triangle prepared.
+#[inline(always)]
+pub(super) fn open_prepared<S: Simd>(
+    s: S,
+    ray: &Packet<S>,
+    span: &Span<S>,
+    triangle: Prepared<'_>,
+    t_max: S::F,
+) -> u32 {
+    let Prepared { common, group, rows, lane } = triangle;
+    let rows = &rows[..PREPARED_ROWS];
+    let edge1 = splat_row3(s, &rows[0..3], lane);
+    let edge2 = splat_row3(s, &rows[3..6], lane);
+    let length = s.splat(rows[13].0[lane]);
+    let parts = match common {
+        Common::Direction(_) => {
+            let from_a = sub3(s, ray.origin, splat_row3(s, &group[0..3], lane));
+            Parts {
+                edge2,
+                from_a,
+                p: splat_row3(s, &rows[6..9], lane),
+                q: cross3(s, from_a, edge1),
+                det: s.splat(rows[12].0[lane]),
+                length,
+                distance: distance(s, from_a),
+            }
+        }
+        Common::Origin(_) => {
+            let p = cross3(s, ray.direction, edge2);
+            Parts {
+                edge2,
+                from_a: splat_row3(s, &rows[6..9], lane),
+                p,
+                q: splat_row3(s, &rows[9..12], lane),
+                det: dot3(s, edge1, p),
+                length,
+                distance: s.splat(rows[14].0[lane]),
+            }
+        }
+    };
+    undecided(s, ray, span, &parts, t_max)
+}
+
+#[inline(always)]
+fn length<S: Simd>(s: S, edge1: Vec3Lanes<S>, edge2: Vec3Lanes<S>) -> S::F {
+    s.max(largest3(s, edge1), largest3(s, edge2))
+}
+
+#[inline(always)]
+fn distance<S: Simd>(s: S, from_a: Vec3Lanes<S>) -> S::F {
+    s.add(s.add(s.abs(from_a[0]), s.abs(from_a[1])), s.abs(from_a[2]))
+}
+
+#[inline(always)]
+fn undecided<S: Simd>(s: S, ray: &Packet<S>, span: &Span<S>, parts: &Parts<S>, t_max: S::F) -> u32 {
+    let Parts { edge2, from_a, p, q, det, length, distance } = *parts;
     let u = dot3(s, from_a, p);
-    let q = cross3(s, from_a, edge1);
     let v = dot3(s, ray.direction, q);
     let w = s.sub(s.sub(det, u), v);
-
-    let length = s.max(largest3(s, edge1), largest3(s, edge2));
-    let distance = s.add(s.add(s.abs(from_a[0]), s.abs(from_a[1])), s.abs(from_a[2]));
     let size = s.add(distance, length);
     let area = s.mul(s.mul(length, s.splat(BOUND)), size);
     let error = s.add(s.mul(area, span.largest), s.splat(TINY));
