@@ -84,7 +84,8 @@ impl Aabb {
                 }
                 continue;
             }
-            let (a, b) = (lo / d, hi / d);
+            let inverse = 1.0 / d;
+            let (a, b) = (lo * inverse, hi * inverse);
             near = near.max(a.min(b));
             far = far.min(a.max(b));
         }

@@ -16,6 +16,8 @@ pub const MARGIN: f64 = 1.0 / (1 << 18) as f64;
 pub struct Grid {
     bounds: Aabb,
     resolution: [u32; 3],
+    /// One over the extent; 0 where there is none.
+    inverse: [f64; 3],
 }
 
 /// Why there is no grid of that resolution.
@@ -49,7 +51,11 @@ impl Grid {
     pub fn new(bounds: Aabb, resolution: [u32; 3]) -> Result<Self, GridError> {
         match resolution.into_iter().find(|n| !(1..=Self::MOST_SLICES).contains(n)) {
             Some(n) => Err(GridError::Slices(n)),
-            None => Ok(Self { bounds, resolution }),
+            None => {
+                let extent = bounds.max.as_dvec3() - bounds.min.as_dvec3();
+                let inverse = extent.to_array().map(|e| if e > 0.0 { 1.0 / e } else { 0.0 });
+                Ok(Self { bounds, resolution, inverse })
+            }
         }
     }
 
@@ -79,9 +85,7 @@ impl Grid {
     /// A coordinate in units of the grid's extent: 0 at its lower side, 1 at its upper.
     #[inline]
     pub fn unit(&self, axis: usize, value: f64) -> f64 {
-        let low = f64::from(self.bounds.min[axis]);
-        let extent = f64::from(self.bounds.max[axis]) - low;
-        if extent > 0.0 { (value - low) / extent } else { 0.5 }
+        (value - f64::from(self.bounds.min[axis])) * self.inverse[axis]
     }
 
     /// The slices that a box touches along an axis, conservatively.
@@ -106,15 +110,17 @@ impl Grid {
             return None;
         }
         let t_end = t_end.max(t_start);
-        let at = |t: f64, axis: usize| {
-            let value = f64::from(ray.origin[axis]) + t * f64::from(ray.direction[axis]);
-            self.unit(axis, value).clamp(0.0, 1.0)
-        };
-        let start = [0, 1, 2].map(|axis| at(t_start, axis));
-        let end = [0, 1, 2].map(|axis| at(t_end, axis));
+        let (mut start, mut delta) = (Vec3::ZERO, Vec3::ZERO);
+        for axis in 0..3 {
+            let (origin, direction) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
+            let from = self.unit(axis, origin + t_start * direction).clamp(0.0, 1.0);
+            let to = self.unit(axis, origin + t_end * direction).clamp(0.0, 1.0);
+            start[axis] = from as f32;
+            delta[axis] = (to - from) as f32;
+        }
         Some(Segment {
-            start: Vec3::from_array(start.map(|v| v as f32)),
-            delta: Vec3::from_array([0, 1, 2].map(|axis| (end[axis] - start[axis]) as f32)),
+            start,
+            delta,
             t_start,
             t_span: t_end - t_start,
         })

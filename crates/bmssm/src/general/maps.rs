@@ -52,9 +52,6 @@ pub struct BlockMaps {
 }
 
 impl BlockMaps {
-    /// No objects.
-    pub const EMPTY: Self = Self { maps: [[0; SLICES]; 3], origin: [0.0; 3], density: [0.0; 3] };
-
     /// Registers boxes by position; `bounds` contains them all.
     pub fn new(bounds: &UnitBox, objects: impl IntoIterator<Item = UnitBox>) -> Self {
         let UnitBox { min: origin, max } = bounds.widened();

@@ -2,7 +2,8 @@
 //! the hierarchical data structures that its §7 suggests).
 
 mod maps;
-mod partition;
+mod order;
+mod split;
 mod trace;
 mod tree;
 
@@ -11,10 +12,10 @@ use accel::objects::{BLOCK, Blocks, EMPTY_SLOT, Objects};
 use accel::simd::{Level, Simd, Task};
 use accel::{Aabb, Count, Footprint, Hit, NoCount, Ray, vec_bytes};
 use maps::{BlockMaps, UnitBox};
-use partition::{Item, Shape};
 use rayon::prelude::*;
+use split::{Item, Shape};
 use trace::Stack;
-use tree::Tree;
+use tree::Node;
 
 /// The maps of a scene for rays of any kind.
 pub struct General<O: Objects> {
@@ -23,7 +24,7 @@ pub struct General<O: Objects> {
     /// Maps of the blocks of objects.
     maps: Vec<BlockMaps>,
     /// The levels above.
-    tree: Tree,
+    nodes: Vec<Node>,
     /// The objects, reordered.
     objects: O::Blocks,
     simd: Level,
@@ -38,33 +39,29 @@ impl<O: Objects> General<O> {
         let scene = bounds.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
         let scene = if scene.is_empty() { Aabb::of_points([accel::Vec3::ZERO]) } else { scene };
         let frame = Grid::new(scene, [1; 3]).expect("one slice is always allowed");
-        let mut items: Vec<Item> = bounds
-            .par_iter()
-            .with_min_len(4096)
-            .zip(0..len)
-            .map(|(b, id)| Item::new(id, unit_box(&frame, b)))
-            .collect();
+        let boxes: Vec<UnitBox> =
+            bounds.par_iter().with_min_len(4096).map(|bounds| unit_box(&frame, bounds)).collect();
         drop(bounds);
         let extent = scene.extent() / scene.extent().max_element();
         let shape = Shape { extent: extent.to_array() };
-        let mut tree =
-            if items.is_empty() { Tree::default() } else { Tree::new(&shape.split(&mut items, 0)) };
-        let blocks = std::mem::take(&mut tree.blocks);
+        let mut items = order::along_curve(&boxes);
+        let boxes_len = boxes.len();
+        drop(boxes);
+        let blocks = order::blocks(&shape, &mut items, settings.stretch.max(BLOCK).min(boxes_len.max(BLOCK)));
         let maps: Vec<BlockMaps> = blocks
             .par_iter()
             .with_min_len(64)
-            .map(|(first, n, bounds)| {
-                BlockMaps::new(bounds, items[*first..first + n].iter().map(Item::bounds))
-            })
+            .map(|block| BlockMaps::new(&block.bounds, items[block.items.clone()].iter().map(Item::bounds)))
             .collect();
         let mut order = vec![EMPTY_SLOT; blocks.len() * BLOCK];
-        for ((first, n, _), slots) in blocks.iter().zip(order.chunks_exact_mut(BLOCK)) {
-            for (slot, item) in slots.iter_mut().zip(&items[*first..first + n]) {
-                *slot = item.object;
+        for (block, slots) in blocks.iter().zip(order.chunks_exact_mut(BLOCK)) {
+            for (slot, item) in slots.iter_mut().zip(&items[block.items.clone()]) {
+                *slot = item.number();
             }
         }
         drop(items);
-        Self { frame, maps, tree, objects: objects.blocks(&order), simd }
+        let nodes = tree::over(&shape, &blocks);
+        Self { frame, maps, nodes, objects: objects.blocks(&order), simd }
     }
 
     /// The nearest hit of each ray.
@@ -86,8 +83,7 @@ impl<O: Objects> General<O> {
     pub fn footprint(&self) -> Footprint {
         Footprint::default()
             .structure("maps", vec_bytes(&self.maps))
-            .structure("nodes", vec_bytes(&self.tree.nodes))
-            .structure("boxes", vec_bytes(&self.tree.boxes))
+            .structure("tree", vec_bytes(&self.nodes))
             .geometry_copy("blocks", self.objects.bytes())
     }
 }

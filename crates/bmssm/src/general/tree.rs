@@ -1,113 +1,98 @@
-//! Blocks of blocks: the levels above the objects. A node is a block whose 64 bits stand for blocks.
+//! The levels above the blocks: a wide tree of their boxes.
+//!
+//! A level of maps of its own would be the paper's way once more (a bit per block), but boxes, which
+//! there are few of, sort out sixteen children in one go and say where the ray enters each.
 
-use super::maps::{BlockMaps, UnitBox};
-use super::partition::Split;
-use accel::objects::BLOCK;
+use super::maps::UnitBox;
+use super::order::Block;
+use super::split::{Item, Shape};
 use accel::simd::{ROW, Row};
 
-/// A block of up to 64 blocks: the maps of its children's boxes, and the boxes.
+/// Most children of a node.
+pub const WIDTH: usize = ROW;
+
+/// The boxes of a node's children, lane by lane, and which they are.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub struct Node {
-    /// Bit per child.
-    pub maps: BlockMaps,
-    /// First group of child boxes; a group holds 16.
-    pub boxes: u32,
-    /// Index of the first child that is a block of objects.
-    pub first_block: u32,
-    /// Index of the first child that is a node.
-    pub first_node: u32,
-    /// Children below this number are blocks of objects, the others nodes.
-    pub blocks: u32,
-}
-
-/// Six rows, x y z of the least and of the greatest coordinates, for 16 boxes.
-pub type BoxGroup = [Row; 6];
-
-/// All levels.
-#[derive(Clone, Debug, Default)]
-pub struct Tree {
-    /// Nodes; the root is the first.
-    pub nodes: Vec<Node>,
-    /// Boxes of the nodes' children.
-    pub boxes: Vec<BoxGroup>,
-    /// For each block in order its first item, its number of items and its box.
-    pub blocks: Vec<(usize, usize, UnitBox)>,
-}
-
-impl Tree {
-    /// Collapses a binary tree of splits into nodes of up to 64 children.
-    pub fn new(root: &Split) -> Self {
-        let mut tree = Self::default();
-        let blocks = root.blocks as usize;
-        tree.blocks.reserve_exact(blocks);
-        tree.nodes.push(Node::EMPTY);
-        let mut open = vec![(0, root)];
-        while let Some((index, split)) = open.pop() {
-            let mut children = children_of(split);
-            children.sort_by_key(|child| child.halves.is_some());
-            let blocks = children.iter().take_while(|child| child.halves.is_none()).count();
-            let node = Node {
-                maps: BlockMaps::new(&split.bounds, children.iter().map(|child| child.bounds)),
-                boxes: tree.boxes.len() as u32,
-                first_block: tree.blocks.len() as u32,
-                first_node: tree.nodes.len() as u32,
-                blocks: blocks as u32,
-            };
-            for group in children.chunks(ROW) {
-                tree.boxes.push(box_group(group));
-            }
-            for child in &children[..blocks] {
-                tree.blocks.push((child.first, child.len, child.bounds));
-            }
-            for child in &children[blocks..] {
-                open.push((tree.nodes.len(), child));
-                tree.nodes.push(Node::EMPTY);
-            }
-            tree.nodes[index] = node;
-        }
-        tree.nodes.shrink_to_fit();
-        tree.boxes.shrink_to_fit();
-        tree
-    }
+    /// x, y, z of the least, then of the greatest coordinates; lanes without a child hold a box that no ray
+    /// meets.
+    pub boxes: [Row; 6],
+    /// A node's index, or a block's with [`Node::BLOCK`] set.
+    pub children: [u32; WIDTH],
 }
 
 impl Node {
-    const EMPTY: Self = Self { maps: BlockMaps::EMPTY, boxes: 0, first_block: 0, first_node: 0, blocks: 0 };
-}
+    /// Marks a child that is a block of objects.
+    pub const BLOCK: u32 = 1 << 31;
 
-/// The descendants that become a node's children: the one with the most blocks is replaced by its halves until
-/// there are 64, or until all are as small as the levels below can hold evenly.
-fn children_of(split: &Split) -> Vec<&Split> {
-    let blocks = f64::from(split.blocks);
-    let levels = (blocks.ln() / (BLOCK as f64).ln()).ceil().max(1.0);
-    let enough = blocks.powf((levels - 1.0) / levels).ceil() as u32;
-    let mut children = vec![split];
-    while children.len() < BLOCK {
-        let largest = (0..children.len()).max_by_key(|i| children[*i].blocks).unwrap_or(0);
-        let Some(halves) = &children[largest].halves else { break };
-        if children[largest].blocks <= enough && children.len() > 1 {
-            break;
-        }
-        children[largest] = &halves[0];
-        children.push(&halves[1]);
-    }
-    children
-}
+    const EMPTY: Self = Self {
+        boxes: {
+            let (low, high) = (Row([f32::INFINITY; ROW]), Row([f32::NEG_INFINITY; ROW]));
+            [low, low, low, high, high, high]
+        },
+        children: [0; WIDTH],
+    };
 
-/// Lanes without a child hold a box that no ray meets.
-fn box_group(children: &[&Split]) -> BoxGroup {
-    let mut group = [Row([f32::INFINITY; ROW]); 6];
-    for (lane, child) in children.iter().enumerate() {
-        let UnitBox { min, max } = child.bounds.widened();
+    fn set(&mut self, lane: usize, bounds: &UnitBox, what: u32) {
+        let UnitBox { min, max } = bounds.widened();
         for axis in 0..3 {
-            group[axis].0[lane] = min[axis];
-            group[3 + axis].0[lane] = max[axis];
+            self.boxes[axis].0[lane] = min[axis];
+            self.boxes[3 + axis].0[lane] = max[axis];
+        }
+        self.children[lane] = what;
+    }
+}
+
+/// A child in the making: consecutive items, each a block.
+struct Part<'i> {
+    items: &'i mut [Item],
+    bounds: UnitBox,
+}
+
+/// The tree over blocks; the root is the first node. Empty where there is no block.
+pub fn over(shape: &Shape, blocks: &[Block]) -> Vec<Node> {
+    let mut items: Vec<Item> = (0..).zip(blocks).map(|(number, block)| Item::new(number, &block.bounds)).collect();
+    let mut nodes = Vec::with_capacity(blocks.len().div_ceil(WIDTH / 2));
+    if blocks.is_empty() {
+        return nodes;
+    }
+    nodes.push(Node::EMPTY);
+    let bounds = shape.bounds_of(&items);
+    let mut open = vec![(0, Part { items: &mut items, bounds })];
+    while let Some((index, part)) = open.pop() {
+        for (lane, part) in children(shape, part).into_iter().enumerate() {
+            let what = if let [block] = *part.items {
+                Node::BLOCK | block.number()
+            } else {
+                nodes.len() as u32
+            };
+            nodes[index].set(lane, &part.bounds, what);
+            if part.items.len() > 1 {
+                open.push((nodes.len(), part));
+                nodes.push(Node::EMPTY);
+            }
         }
     }
-    for row in &mut group[3..] {
-        for value in row.0.iter_mut().skip(children.len()) {
-            *value = f32::NEG_INFINITY;
+    nodes.shrink_to_fit();
+    nodes
+}
+
+/// Splits the part of the largest surface until there are enough children.
+fn children<'i>(shape: &Shape, part: Part<'i>) -> Vec<Part<'i>> {
+    let mut parts = vec![part];
+    while parts.len() < WIDTH {
+        let largest = (0..parts.len())
+            .filter(|i| parts[*i].items.len() > 1)
+            .max_by(|a, b| shape.area(&parts[*a].bounds).total_cmp(&shape.area(&parts[*b].bounds)));
+        let Some(largest) = largest else { break };
+        let Part { items, .. } = parts.swap_remove(largest);
+        let at = shape.divide(items, 1);
+        let (left, right) = items.split_at_mut(at);
+        for items in [left, right] {
+            let bounds = shape.bounds_of(items);
+            parts.push(Part { items, bounds });
         }
     }
-    group
+    parts
 }
