@@ -118,12 +118,7 @@ impl Grid {
             start[axis] = from as f32;
             delta[axis] = (to - from) as f32;
         }
-        Some(Segment {
-            start,
-            delta,
-            t_start,
-            t_span: t_end - t_start,
-        })
+        Some(Segment { start, delta, t_start, t_span: t_end - t_start })
     }
 }
 

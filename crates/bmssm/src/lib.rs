@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 pub mod dense;
+pub mod fast;
 pub mod general;
 pub mod image_space;
 pub mod raster;

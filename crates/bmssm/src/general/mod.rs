@@ -17,6 +17,15 @@ use split::{Item, Shape};
 use trace::Stack;
 use tree::Node;
 
+/// How the maps for rays of any kind are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// The instruction set.
+    pub simd: Level,
+    /// Objects along a Morton curve within which blocks are cut; all of them at once if there are no more.
+    pub stretch: usize,
+}
+
 /// The maps of a scene for rays of any kind.
 pub struct General<O: Objects> {
     /// One cell over the scene: clips rays and gives the unit coordinates.
@@ -32,7 +41,8 @@ pub struct General<O: Objects> {
 
 impl<O: Objects> General<O> {
     /// Builds the maps of all `objects`, in the current rayon pool.
-    pub fn new(objects: &O, simd: Level) -> Self {
+    pub fn new(objects: &O, settings: Settings) -> Self {
+        let Settings { simd, stretch } = settings;
         let len = objects.len() as u32;
         let bounds: Vec<Aabb> =
             (0..len).into_par_iter().with_min_len(4096).map(|id| objects.bounds(id)).collect();
@@ -44,10 +54,13 @@ impl<O: Objects> General<O> {
         drop(bounds);
         let extent = scene.extent() / scene.extent().max_element();
         let shape = Shape { extent: extent.to_array() };
-        let mut items = order::along_curve(&boxes);
-        let boxes_len = boxes.len();
+        let mut items = if boxes.len() > stretch {
+            order::along_curve(&boxes)
+        } else {
+            (0..len).zip(&boxes).map(|(id, bounds)| Item::new(id, bounds)).collect()
+        };
         drop(boxes);
-        let blocks = order::blocks(&shape, &mut items, settings.stretch.max(BLOCK).min(boxes_len.max(BLOCK)));
+        let blocks = order::blocks(&shape, &mut items, stretch);
         let maps: Vec<BlockMaps> = blocks
             .par_iter()
             .with_min_len(64)

@@ -78,7 +78,7 @@ const PARALLEL: usize = 1 << 13;
 ///
 /// One stretch over all items gives the best blocks; shorter ones are cut faster, as they stay in cache.
 pub fn blocks(shape: &Shape, items: &mut [Item], stretch: usize) -> Vec<Block> {
-    let stretch = stretch.next_multiple_of(BLOCK);
+    let stretch = stretch.min(items.len()).next_multiple_of(BLOCK).max(BLOCK);
     let cut = |(number, items): (usize, &mut [Item])| cut(shape, items, number * stretch);
     items.par_chunks_mut(stretch).enumerate().flat_map_iter(cut).collect()
 }

@@ -17,10 +17,7 @@ impl Item {
     /// A box in unit coordinates and its number.
     #[inline]
     pub fn new(number: u32, UnitBox { min, max }: &UnitBox) -> Self {
-        Self {
-            low: [min[0], min[1], min[2], f32::from_bits(number)],
-            high: [-max[0], -max[1], -max[2], 0.0],
-        }
+        Self { low: [min[0], min[1], min[2], f32::from_bits(number)], high: [-max[0], -max[1], -max[2], 0.0] }
     }
 
     /// The number.
@@ -95,7 +92,8 @@ impl Shape {
     pub fn divide(&self, items: &mut [Item], packet: usize) -> usize {
         let len = items.len();
         assert!(len > packet.max(1), "nothing to divide");
-        let whole = |left: usize| ((left + packet / 2) / packet * packet).clamp(packet, (len - 1) / packet * packet);
+        let whole =
+            |left: usize| ((left + packet / 2) / packet * packet).clamp(packet, (len - 1) / packet * packet);
         let Some((axis, bin, bins)) = self.best_bin(items, packet) else {
             return whole(len / 2);
         };
@@ -132,7 +130,9 @@ impl Shape {
         }
         // In quarters of packets, so that splits within a few packets tell apart.
         let quarter = packet.div_ceil(4) as u32;
-        let cost = |bounds: &UnitBox, n: u32| if n == 0 { 0.0 } else { self.area(bounds) * n.div_ceil(quarter) as f32 };
+        let cost = |bounds: &UnitBox, n: u32| {
+            if n == 0 { 0.0 } else { self.area(bounds) * n.div_ceil(quarter) as f32 }
+        };
         let mut best = (f32::INFINITY, 0, 0);
         for axis in (0..3).filter(|axis| bins.scale[*axis] > 0.0) {
             let mut right_cost = [0.0; BINS];

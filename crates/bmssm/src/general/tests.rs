@@ -55,13 +55,13 @@ fn rays(seed: u64, count: usize, scale: f32, offset: Vec3) -> Vec<Ray> {
         .collect()
 }
 
-struct Differences<'a>(&'a [Ray], &'a [Option<Hit>], Level);
+struct Differences<'a>(&'a [Ray], &'a [Option<Hit>], Level, usize);
 
 impl<'s> WithObjects<'s> for Differences<'_> {
     type Out = usize;
     fn objects<O: Objects + 's>(self, objects: O) -> usize {
-        let Self(rays, reference, simd) = self;
-        let maps = General::new(&objects, simd);
+        let Self(rays, reference, simd, stretch) = self;
+        let maps = General::new(&objects, Settings { simd, stretch });
         let mut hits = vec![None; rays.len()];
         maps.closest(rays, &mut hits);
         let mut occluded = vec![false; rays.len()];
@@ -87,8 +87,10 @@ fn assert_no_differences(geometry: Geometry, rays: &[Ray]) -> usize {
         brute.trace(&RaySet::List(rays.to_vec()), &mut reference);
         hits = reference.iter().flatten().count();
         for simd in Level::here() {
-            let differences = scene.with_objects(kernel, Differences(rays, &reference, simd));
-            assert_eq!(differences, 0, "{kernel} {simd:?}");
+            for stretch in [512, usize::MAX / 2] {
+                let differences = scene.with_objects(kernel, Differences(rays, &reference, simd, stretch));
+                assert_eq!(differences, 0, "{kernel} {simd:?} {stretch}");
+            }
         }
     }
     hits
@@ -146,7 +148,7 @@ fn the_tree_holds_every_object_once_and_full_blocks() {
     impl<'s> WithObjects<'s> for Slots {
         type Out = (Vec<u32>, usize);
         fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
-            let maps = General::new(&objects, Level::Portable);
+            let maps = General::new(&objects, Settings { simd: Level::Portable, stretch: 1 << 12 });
             let slots = (0..maps.maps.len() * BLOCK).map(|slot| maps.objects.object(slot));
             (slots.filter(|object| *object != EMPTY_SLOT).collect(), maps.maps.len())
         }

@@ -52,7 +52,8 @@ struct Part<'i> {
 
 /// The tree over blocks; the root is the first node. Empty where there is no block.
 pub fn over(shape: &Shape, blocks: &[Block]) -> Vec<Node> {
-    let mut items: Vec<Item> = (0..).zip(blocks).map(|(number, block)| Item::new(number, &block.bounds)).collect();
+    let mut items: Vec<Item> =
+        (0..).zip(blocks).map(|(number, block)| Item::new(number, &block.bounds)).collect();
     let mut nodes = Vec::with_capacity(blocks.len().div_ceil(WIDTH / 2));
     if blocks.is_empty() {
         return nodes;
@@ -62,11 +63,8 @@ pub fn over(shape: &Shape, blocks: &[Block]) -> Vec<Node> {
     let mut open = vec![(0, Part { items: &mut items, bounds })];
     while let Some((index, part)) = open.pop() {
         for (lane, part) in children(shape, part).into_iter().enumerate() {
-            let what = if let [block] = *part.items {
-                Node::BLOCK | block.number()
-            } else {
-                nodes.len() as u32
-            };
+            let what =
+                if let [block] = *part.items { Node::BLOCK | block.number() } else { nodes.len() as u32 };
             nodes[index].set(lane, &part.bounds, what);
             if part.items.len() > 1 {
                 open.push((nodes.len(), part));

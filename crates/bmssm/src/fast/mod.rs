@@ -1,0 +1,68 @@
+//! `bmssm`: the fast structure. One image is served by maps in image space ([`crate::raster`]), all
+//! other rays by blocks with maps of their own ([`crate::general`]); only what the need names is
+//! built.
+
+mod plan;
+mod serve;
+mod settings;
+
+pub use plan::Plan;
+pub use settings::Settings;
+
+use accel::{Accel, BuildError, Builder, Need, Objects, Scene, WithObjects};
+use serve::Built;
+
+const ID: &str = "bmssm";
+
+/// Builds `bmssm`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bmssm {
+    /// The settings.
+    pub settings: Settings,
+}
+
+impl Bmssm {
+    /// Changes one setting, see [`Settings::NAMES`].
+    ///
+    /// # Errors
+    /// [`BuildError::Setting`] if there is no such setting or the value makes no sense.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), BuildError> {
+        self.settings.set(name, value).map_err(|problem| BuildError::Setting {
+            structure: ID.into(),
+            setting: name.into(),
+            problem,
+        })
+    }
+}
+
+impl Builder for Bmssm {
+    fn id(&self) -> &str {
+        ID
+    }
+
+    fn settings(&self) -> String {
+        self.settings.to_string()
+    }
+
+    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        let plan = Plan::new(&self.settings, scene.geometry.len(), need);
+        let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
+        if plan.bytes > limit {
+            return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
+        }
+        Ok(scene.with_objects(self.settings.kernel, Build(plan)))
+    }
+}
+
+struct Build(Plan);
+
+impl<'s> WithObjects<'s> for Build {
+    type Out = Box<dyn Accel + 's>;
+
+    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+        Box::new(Built::new(objects, self.0))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,82 @@
+//! What is built for a scene and a need, and why.
+
+use super::Settings;
+use crate::{general, raster};
+use accel::objects::BLOCK;
+use accel::{Need, Raster};
+use std::fmt;
+
+/// Objects from which on the whole scene is no longer divided at once: the time of that grows with the
+/// logarithm of their number, and beyond the caches by more.
+const MANY: usize = 4_000_000;
+
+/// Objects in a stretch where there are [`MANY`]; 128 KiB of boxes, which stay in a second-level cache.
+const SHORT_STRETCH: usize = 4096;
+
+/// What is built, and why. A structure for one image has no maps along the image's depth, as its rays need none
+/// (Skala 1993, §6); without an image there are no image maps, without other rays no maps in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Number of objects.
+    pub objects: usize,
+    /// The image to be served and its maps.
+    pub raster: Option<(Raster, raster::Settings)>,
+    /// The maps for all other rays.
+    pub general: Option<general::Settings>,
+    /// Most bytes that it will take, geometry copies included.
+    pub bytes: u128,
+    reasons: Vec<String>,
+}
+
+impl Plan {
+    /// Plans for a scene of so many objects.
+    pub fn new(settings: &Settings, objects: usize, need: &Need) -> Self {
+        let mut reasons = Vec::new();
+        let mut bytes = 0;
+        let raster = need.raster.map(|image| {
+            reasons.push(format!(
+                "image maps over {} row and {} column slices of {} pixels: the need names a raster; none in depth",
+                image.rows.div_ceil(raster::THICKNESS),
+                image.cols.div_ceil(raster::THICKNESS),
+                raster::THICKNESS
+            ));
+            bytes += objects as u128 * u128::from(RASTER_BYTES);
+            (image, settings.raster())
+        });
+        let general = need.general.then(|| {
+            let general =
+                general::Settings { simd: settings.simd, stretch: stretch(settings, objects, &mut reasons) };
+            bytes += objects.div_ceil(BLOCK) as u128 * GENERAL_BLOCK_BYTES;
+            general
+        });
+        Self { objects, raster, general, bytes, reasons }
+    }
+}
+
+/// Per object: maps, and a copy of its geometry.
+const RASTER_BYTES: u32 = 16 + 52;
+
+/// Per block: maps, its share of the tree, and a copy of 64 objects' geometry.
+const GENERAL_BLOCK_BYTES: u128 = 224 + 112 + 52 * BLOCK as u128;
+
+fn stretch(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> usize {
+    let (stretch, why) = match settings.stretch {
+        Some(stretch) => (stretch, "as set".to_owned()),
+        None if objects > MANY => (SHORT_STRETCH, format!("more than {MANY} objects")),
+        None => (objects, "the whole scene".to_owned()),
+    };
+    let stretch = stretch.next_multiple_of(BLOCK).max(BLOCK);
+    reasons.push(format!(
+        "{} blocks of up to {BLOCK} objects with {} slices an axis, cut within {stretch} objects ({why}): the \
+         need names rays of any kind",
+        objects.div_ceil(BLOCK),
+        accel::simd::path::SLICES
+    ));
+    stretch
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reasons.join("\n"))
+    }
+}

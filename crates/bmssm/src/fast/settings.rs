@@ -1,0 +1,106 @@
+//! What `bmssm` can be told. Every choice of the plan can be overridden.
+
+use crate::raster;
+use accel::KernelId;
+use accel::objects::BLOCK;
+use accel::simd::Level;
+use std::fmt;
+use std::str::FromStr;
+
+/// Settings of `bmssm`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The ray-triangle test.
+    pub kernel: KernelId,
+    /// The instruction set.
+    pub simd: Level,
+    /// Objects along a Morton curve within which blocks are cut; `None` leaves it to the plan.
+    pub stretch: Option<usize>,
+    /// Slices across a tile of an image.
+    pub tile: u32,
+    /// How much longer a block of an image is in depth than it is wide: a power of two's exponent.
+    pub depth_bits: u32,
+    /// Objects that span more slices of an image than this are kept apart from smaller ones.
+    pub apart: u32,
+    /// Most bytes that the structure may take; `None` for what the machine has to give.
+    pub memory: Option<u128>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let raster::Settings { kernel, simd, tile, depth_bits, apart } = raster::Settings::default();
+        Self { kernel, simd, stretch: None, tile, depth_bits, apart, memory: None }
+    }
+}
+
+impl Settings {
+    /// Names and meanings, for help texts.
+    pub const NAMES: [(&str, &str); 7] = [
+        ("kernel", "ray-triangle test"),
+        ("simd", "instruction set"),
+        (
+            "stretch",
+            "objects within which blocks are cut: auto, or a number; fewer build faster and trace slower",
+        ),
+        ("tile", "slices of 4 pixels across a tile of an image, 1 to 16"),
+        ("depth_bits", "how much longer than wide a block of an image is, as a power of two, 0 to 8"),
+        ("apart", "slices of an image above which objects are kept apart from smaller ones"),
+        ("memory", "most bytes the structure may take"),
+    ];
+
+    /// Changes one setting.
+    ///
+    /// # Errors
+    /// Says what is wrong.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
+        match name {
+            "kernel" => {
+                self.kernel = KernelId::from_id(value)
+                    .ok_or_else(|| none_of(value, KernelId::ALL.map(KernelId::id)))?;
+            }
+            "simd" => {
+                let level = Level::from_id(value).filter(|level| level.available());
+                self.simd = level.ok_or_else(|| none_of(value, Level::here().map(Level::id)))?;
+            }
+            "stretch" if value == "auto" => self.stretch = None,
+            "stretch" => self.stretch = Some(number(value, BLOCK, usize::MAX / 2)?),
+            "tile" => self.tile = number(value, 1, 16)?,
+            "depth_bits" => self.depth_bits = number(value, 0, 8)?,
+            "apart" => self.apart = number(value, 1, 1 << 16)?,
+            "memory" => self.memory = Some(number(value, 0, u128::MAX)?),
+            _ => return Err(none_of(name, Self::NAMES.map(|(name, _)| name))),
+        }
+        Ok(())
+    }
+
+    pub(super) fn raster(&self) -> raster::Settings {
+        let Self { kernel, simd, tile, depth_bits, apart, .. } = *self;
+        raster::Settings { kernel, simd, tile, depth_bits, apart }
+    }
+}
+
+impl fmt::Display for Settings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { kernel, simd, stretch, tile, depth_bits, apart, memory } = self;
+        let stretch = stretch.map_or("auto".to_owned(), |stretch| stretch.to_string());
+        write!(
+            f,
+            "kernel={kernel} simd={} stretch={stretch} tile={tile} depth_bits={depth_bits} apart={apart}",
+            simd.id()
+        )?;
+        memory.map_or(Ok(()), |bytes| write!(f, " memory={bytes}"))
+    }
+}
+
+fn number<T: FromStr + PartialOrd + fmt::Display + Copy>(value: &str, least: T, most: T) -> Result<T, String> {
+    match value.parse() {
+        Ok(number) if (least..=most).contains(&number) => Ok(number),
+        Ok(_) => Err(format!("'{value}' is not from {least} to {most}")),
+        Err(_) => Err(format!("'{value}' is not a whole number")),
+    }
+}
+
+fn none_of<'a>(value: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<_> = known.into_iter().collect();
+    format!("'{value}' is none of {}", known.join(", "))
+}

@@ -1,0 +1,96 @@
+use super::*;
+use accel::baseline::Brute;
+use accel::{Geometry, Group, KernelId, Mesh, Projection, Raster, Ray, RaySet, Vec3, View};
+
+fn scene() -> Scene {
+    let mut state = 11u32;
+    let mut number = move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / (1 << 24) as f32 * 2.0 - 1.0
+    };
+    let mut point = |size: f32| Vec3::new(number(), number(), number()) * size;
+    let mut mesh = Mesh::default();
+    for i in 0..3000 {
+        let corner = point(1.0);
+        mesh.positions.extend([corner, corner + point(0.1), corner + point(0.1)]);
+        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
+    Scene { id: "cloud".into(), geometry: Geometry::Triangles(mesh), view }
+}
+
+fn image() -> Raster {
+    Raster {
+        projection: Projection::Parallel,
+        rows: 50,
+        cols: 70,
+        origin: Vec3::new(-1.1, 1.1, 3.0),
+        forward: Vec3::NEG_Z,
+        right: Vec3::X * (2.2 / 70.0),
+        down: Vec3::NEG_Y * (2.2 / 50.0),
+    }
+}
+
+fn list() -> RaySet {
+    let origin = |i: i32| Vec3::new(i as f32 * 0.01 - 1.0, 0.1, -1.5);
+    RaySet::List((0..200).map(|i| Ray::new(origin(i), Vec3::new(0.1, -0.05, 1.0))).collect())
+}
+
+#[test]
+fn every_need_is_served_with_what_it_names() {
+    let scene = scene();
+    let image = image();
+    let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Need::GENERAL).unwrap();
+    let both = Need { raster: Some(image), general: true };
+    for need in [Need::raster(image), Need::GENERAL, both] {
+        let built = Bmssm::default().build(&scene, &need).unwrap();
+        let mut sets = Vec::new();
+        sets.extend(need.raster.map(RaySet::Raster));
+        sets.extend(need.general.then(list));
+        for set in &sets {
+            let (mut hits, mut reference) = (vec![None; set.len()], vec![None; set.len()]);
+            built.trace(set, &mut hits);
+            brute.trace(set, &mut reference);
+            assert_eq!(hits, reference);
+            assert!(reference.iter().flatten().count() > 50);
+            let mut occluded = vec![false; set.len()];
+            built.trace_occluded(set, &mut occluded);
+            assert!(occluded.iter().zip(&reference).all(|(o, hit)| *o == hit.is_some()));
+            let ray = set.ray(set.len() / 2);
+            assert_eq!(built.closest(&ray), brute.closest(&ray));
+            assert!(built.count(set, false).unwrap().tests > 0);
+        }
+        let names: Vec<_> = built.footprint().parts.iter().map(|part| part.name).collect();
+        assert_eq!(names.contains(&"tree"), need.general, "{names:?}");
+        assert_eq!(built.plan().contains("image maps"), need.raster.is_some());
+    }
+}
+
+#[test]
+fn the_plan_bounds_what_is_built() {
+    let scene = scene();
+    for need in [Need::raster(image()), Need::GENERAL] {
+        let bmssm = Bmssm::default();
+        let plan = Plan::new(&bmssm.settings, scene.geometry.len(), &need);
+        let footprint = bmssm.build(&scene, &need).unwrap().footprint();
+        assert!(footprint.bytes(Group::Structure) > 0);
+        assert!(footprint.total() as u128 <= plan.bytes + 4096, "{footprint:?} {}", plan.bytes);
+        let mut tight = bmssm;
+        tight.set("memory", "1000").unwrap();
+        assert!(matches!(tight.build(&scene, &need), Err(BuildError::TooLarge { limit: 1000, .. })));
+    }
+}
+
+#[test]
+fn every_setting_is_read_as_it_is_written() {
+    let text = "kernel=watertight simd=portable stretch=512 tile=4 depth_bits=1 apart=9 memory=123";
+    let mut settings = Settings::default();
+    for (name, value) in text.split(' ').map(|pair| pair.split_once('=').unwrap()) {
+        settings.set(name, value).unwrap();
+    }
+    assert_eq!(settings.to_string(), text);
+    for (name, _) in Settings::NAMES {
+        assert!(Settings::default().set(name, "?").unwrap_err().contains("'?'"), "{name}");
+    }
+    assert!(Bmssm::default().set("colour", "red").is_err());
+}
