@@ -20,6 +20,7 @@ pub struct Rays<S: Simd> {
 
 impl Kernel for Double {
     const ID: KernelId = KernelId::Double;
+    const NORMALISED: bool = false;
     type One = Ray;
     type Many<S: Simd> = Rays<S>;
 

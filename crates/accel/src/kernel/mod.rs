@@ -33,6 +33,9 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     const ROWS: usize = 9;
     /// Whether hits of different triangles at the same reported t need [`Kernel::order`]; otherwise their numbers decide.
     const ORDERS_TIES: bool = false;
+    /// Whether geometry of extreme size is scaled by a power of two before the kernel sees it, since its products
+    /// of coordinates would under- or overflow.
+    const NORMALISED: bool = true;
     /// What is computed once for a ray.
     type One: Copy + Send + Sync;
     /// What is computed once for `LANES` rays.

@@ -1,6 +1,7 @@
 //! What a structure asks of the objects of a scene.
 
 mod boxes;
+mod frame;
 mod one_by_one;
 mod triangles;
 

@@ -1,10 +1,11 @@
 //! Triangles as objects, with the kernel as a parameter.
 
-use super::{BLOCK, Blocks, EMPTY_SLOT, Objects, lawful, pad_of};
+use super::frame::{Frame, plainly_lawful};
+use super::{BLOCK, Blocks, EMPTY_SLOT, Objects};
 use crate::kernel::{Corners, Kernel, load_corners, store_rows, sub3};
 use crate::packet::{Common, Lanes, NearestPacket, Packet, Vec3Lanes};
 use crate::simd::{ROW, Row, Simd};
-use crate::{Aabb, Mesh, Nearest, Ray, Surface, Vec3};
+use crate::{Aabb, Mesh, Nearest, Ray, Surface};
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 
@@ -14,16 +15,6 @@ pub struct Triangles<'s, K> {
     mesh: &'s Mesh,
     frame: Frame,
     kernel: PhantomData<K>,
-}
-
-/// What the law of [`Objects`] needs to know of the whole mesh.
-#[derive(Clone, Copy, Debug)]
-struct Frame {
-    pad: f32,
-    center: Vec3,
-    /// Rays whose origin is no farther than this from the centre, on each axis, have hits whose position
-    /// `f32` gives well within half the padding.
-    near: f32,
 }
 
 /// A ray prepared for triangles.
@@ -42,45 +33,10 @@ pub struct TrianglePacket<S: Simd, P> {
     near: S::M,
 }
 
-impl Frame {
-    fn of(mesh: &Mesh) -> Self {
-        let bounds = mesh.bounds();
-        let pad = pad_of(&bounds);
-        if bounds.is_empty() {
-            return Self { pad, center: Vec3::ZERO, near: 0.0 };
-        }
-        Self { pad, center: bounds.center(), near: 4.0 * bounds.extent().max_element() }
-    }
-
-    fn is_near(&self, origin: Vec3) -> bool {
-        (origin - self.center).abs().max_element() <= self.near
-    }
-
-    /// Whether a hit keeps the law of [`Objects`].
-    #[inline]
-    fn lawful(&self, corners: &Corners, ray: &Ray, near: bool, t: f32) -> bool {
-        (near && self.plainly_lawful(corners, ray, t))
-            || lawful(&Aabb::of_points(*corners).padded(self.pad), ray, t)
-    }
-
-    /// A cheaper test that implies `lawful` for near rays: the hit's position relative to the first corner,
-    /// rounded, lies in the box padded by half.
-    #[inline]
-    fn plainly_lawful(&self, corners: &Corners, ray: &Ray, t: f32) -> bool {
-        let [a, b, c] = *corners;
-        let half = Vec3::splat(self.pad * 0.5);
-        let position = (ray.origin - a) + ray.direction * t;
-        let (edge1, edge2) = (b - a, c - a);
-        let low = edge1.min(edge2).min(Vec3::ZERO) - half;
-        let high = edge1.max(edge2).max(Vec3::ZERO) + half;
-        low.cmple(position).all() && position.cmple(high).all()
-    }
-}
-
 impl<'s, K: Kernel> Triangles<'s, K> {
     /// The objects of a scene of triangles.
     pub fn new(mesh: &'s Mesh) -> Self {
-        Self { mesh, frame: Frame::of(mesh), kernel: PhantomData }
+        Self { mesh, frame: Frame::of(mesh, K::NORMALISED), kernel: PhantomData }
     }
 
     /// The corners of a triangle.
@@ -116,8 +72,9 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
     #[inline]
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         let corners = self.corners(id);
-        let surface = K::test(&K::one(ray), &corners, t_max)?;
-        self.frame.lawful(&corners, ray, self.frame.is_near(ray.origin), surface.t).then_some(surface)
+        let frame = &self.frame;
+        let surface = K::test(&K::one(&frame.ray(ray)), &frame.corners(&corners), t_max)?;
+        frame.lawful(&corners, ray, frame.is_near(ray.origin), surface.t).then_some(surface)
     }
 
     #[inline]
@@ -132,7 +89,7 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
         let mut rows = vec![Row([f32::NAN; ROW]); groups * K::ROWS];
         for (group, ids) in rows.chunks_exact_mut(K::ROWS).zip(order.chunks(ROW)) {
             for (lane, id) in ids.iter().enumerate().filter(|(_, id)| **id != EMPTY_SLOT) {
-                K::pack(&self.corners(*id), group, lane);
+                K::pack(&self.frame.corners(&self.corners(*id)), group, lane);
             }
         }
         TriangleBlocks { triangles: *self, rows, order: order.to_vec() }
@@ -156,7 +113,14 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn corners(&self, group: &[Row], slot: usize) -> Corners {
-        K::corners(group, slot % ROW).unwrap_or_else(|| self.triangles.corners(self.order[slot]))
+        let packed = if self.rows_hold_corners() { K::corners(group, slot % ROW) } else { None };
+        packed.unwrap_or_else(|| self.triangles.corners(self.order[slot]))
+    }
+
+    /// Whether the corners in the rows, if any, are those of the mesh.
+    #[inline(always)]
+    fn rows_hold_corners(&self) -> bool {
+        self.triangles.frame.scale == 1.0
     }
 
     /// Decides the lanes that hit `object` at the same t as another object, and strikes them off `lanes`.
@@ -293,7 +257,8 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn one(&self, ray: &Ray) -> Self::One {
-        TriangleRay { prepared: K::one(ray), ray: *ray, near: self.triangles.frame.is_near(ray.origin) }
+        let frame = &self.triangles.frame;
+        TriangleRay { prepared: K::one(&frame.ray(ray)), ray: *ray, near: frame.is_near(ray.origin) }
     }
 
     #[inline(always)]
@@ -305,7 +270,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
             let distance = s.abs(s.sub(rays.origin[axis], s.splat(frame.center[axis])));
             all = s.and(all, s.le(distance, near));
         }
-        TrianglePacket { prepared: K::many(s, rays), rays: *rays, near: all }
+        TrianglePacket { prepared: K::many(s, &frame.packet(s, rays)), rays: *rays, near: all }
     }
 
     #[inline(always)]
@@ -346,8 +311,8 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         let (limits, rows) = rows[..Self::PREPARED_ROWS].split_at_mut(LIMIT_ROWS);
         let half = s.splat(self.triangles.frame.pad * 0.5);
         for at in (0..ROW).step_by(S::LANES) {
-            K::prepare(s, common, group, at, rows);
-            let [a, b, c] = if K::corners(group, 0).is_some() {
+            K::prepare(s, &self.triangles.frame.common(common), group, at, rows);
+            let [a, b, c] = if self.rows_hold_corners() && K::corners(group, 0).is_some() {
                 load_corners(s, group, at)
             } else {
                 self.gather(s, first + at)
@@ -382,6 +347,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         let group = self.group(slot);
         let lane = slot % ROW;
         let (limits, rows) = rows[..Self::PREPARED_ROWS].split_at(LIMIT_ROWS);
+        let common = &self.triangles.frame.common(common);
         let lanes = K::rays_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
         if s.bits(lanes.hit) == 0 {
             return;
@@ -399,20 +365,3 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
 /// Rows that hold each triangle's first corner and the limits of [`Frame::plainly_lawful`].
 const LIMIT_ROWS: usize = 9;
-
-/// [`Frame::plainly_lawful`] in lanes.
-#[inline(always)]
-fn plainly_lawful<S: Simd>(s: S, frame: &Frame, corners: &Corners, rays: &Packet<S>, t: S::F) -> S::M {
-    let [a, b, c] = *corners;
-    let half = Vec3::splat(frame.pad * 0.5);
-    let (edge1, edge2) = (b - a, c - a);
-    let low = edge1.min(edge2).min(Vec3::ZERO) - half;
-    let high = edge1.max(edge2).max(Vec3::ZERO) + half;
-    let mut all = s.mask(u32::MAX);
-    for axis in 0..3 {
-        let from_a = s.sub(rays.origin[axis], s.splat(a[axis]));
-        let position = s.add(from_a, s.mul(rays.direction[axis], t));
-        all = s.and(all, s.and(s.le(s.splat(low[axis]), position), s.le(position, s.splat(high[axis]))));
-    }
-    all
-}

@@ -51,6 +51,7 @@ pub struct SpannedLanes<S: Simd> {
 impl Kernel for Exact {
     const ID: KernelId = KernelId::Exact;
     const ORDERS_TIES: bool = true;
+    const NORMALISED: bool = false;
     type One = Spanned;
     type Many<S: Simd> = SpannedLanes<S>;
 
