@@ -5,12 +5,15 @@
 pub mod answers;
 pub mod check;
 pub mod cmd;
+pub mod exchange;
 pub mod grouped;
 pub mod heap;
 pub mod machine;
 pub mod measure;
 pub mod near;
 pub mod output;
+pub mod palette;
+pub mod picture;
 pub mod rays;
 pub mod rayset;
 pub mod record;

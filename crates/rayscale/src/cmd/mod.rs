@@ -14,8 +14,13 @@ mod diff;
 mod error;
 mod measure;
 mod rank;
+mod render;
 mod report;
+mod scenes;
 mod selection;
+mod structure;
+mod structures;
+mod trace;
 mod welcome;
 
 pub use console::Console;
@@ -59,6 +64,10 @@ enum Command {
     Cmp(cmp::Cmp),
     Rank(rank::Rank),
     Diff(diff::Diff),
+    Render(render::Render),
+    Trace(trace::Trace),
+    Scenes(scenes::Scenes),
+    Structures(structures::Structures),
     Completions(completions::Completions),
 }
 
@@ -72,6 +81,10 @@ impl Command {
             Self::Cmp(verb) => verb,
             Self::Rank(verb) => verb,
             Self::Diff(verb) => verb,
+            Self::Render(verb) => verb,
+            Self::Trace(verb) => verb,
+            Self::Scenes(verb) => verb,
+            Self::Structures(verb) => verb,
             Self::Completions(verb) => verb,
         }
     }

@@ -3,12 +3,13 @@
 use super::{Console, Error, Outcome, Verb};
 use crate::output::write_whole;
 use crate::record::{self, Record};
+use crate::report::html::{Pictures, html};
 use crate::report::{markdown, splice, summary, write_csv};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Write report.md and cells.csv from a record alone
+/// Write report.md, report.html and cells.csv from a record alone
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale report record.json
@@ -52,15 +53,16 @@ fn into_text(from: &Path, record: &Record, path: &Path) -> Result<(), Error> {
     file(path, |out| out.write_all(text.as_bytes()))
 }
 
-/// Writes report.md and cells.csv to a folder and says which files these are.
+/// Writes report.md, report.html and cells.csv to a folder and says which files these are.
 pub fn write(record: &Record, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     if !folder.as_os_str().is_empty() {
         std::fs::create_dir_all(folder).map_err(|error| Error::io(folder.display(), error))?;
     }
-    let (report, cells) = (folder.join("report.md"), folder.join("cells.csv"));
+    let [report, page, cells] = ["report.md", "report.html", "cells.csv"].map(|name| folder.join(name));
     file(&report, |out| out.write_all(markdown(record).as_bytes()))?;
+    file(&page, |out| out.write_all(html(record, &Pictures::new()).as_bytes()))?;
     file(&cells, |out| write_csv(record, out))?;
-    Ok(vec![report, cells])
+    Ok(vec![report, page, cells])
 }
 
 fn file(

@@ -1,6 +1,7 @@
 //! Reports, made from a record alone.
 
 mod csv;
+pub mod html;
 mod markdown;
 mod memory;
 mod splice;

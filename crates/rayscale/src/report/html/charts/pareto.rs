@@ -1,0 +1,55 @@
+//! Memory against speed, with the Pareto front.
+
+use super::super::aggregate::{Overall, front};
+use super::super::labels::place;
+use super::super::scale::trimmed;
+use super::super::style::Styles;
+use super::super::svg::Anchor;
+use super::frame::{Axis, Frame};
+use crate::units;
+
+/// Bytes per object against ns per ray, a point for each structure; `None` without two points.
+pub fn pareto(overall: &Overall, styles: &Styles) -> Option<String> {
+    let rows: Vec<_> = overall.rows.iter().filter_map(|row| Some((row, row.bytes?))).collect();
+    if rows.len() < 2 {
+        return None;
+    }
+    let figures: Vec<(f64, f64)> = rows.iter().map(|(row, bytes)| (*bytes, row.ns)).collect();
+    let (bytes, ns): (Vec<f64>, Vec<f64>) = figures.iter().copied().unzip();
+    let label = |bytes: f64| format!("{} B", trimmed(bytes));
+    let horizontal = Axis { title: "memory per object →", values: &bytes, label: &label };
+    let vertical = Axis { title: "↑ time per ray", values: &ns, label: &units::time };
+    let Frame { mut svg, x, y, area } = Frame::new(300.0, &horizontal, &vertical);
+    let points: Vec<(f64, f64)> = figures.iter().map(|(b, t)| (x.at(*b), y.at(*t))).collect();
+    let best = front(&figures);
+    let mut steps = Vec::new();
+    for pair in best.windows(2) {
+        let (from, to) = (points[pair[0]], points[pair[1]]);
+        steps.extend([from, (to.0, from.1), to]);
+    }
+    if !steps.is_empty() {
+        svg.path(&steps, "front");
+    }
+    let names: Vec<&str> = rows.iter().map(|(row, _)| row.structure).collect();
+    let labels = place(&points, &names, area);
+    for (i, ((row, bytes), point)) in rows.iter().zip(&points).enumerate() {
+        let note = if best.contains(&i) { ", on the front" } else { "" };
+        let tip = format!(
+            "{}: {} per ray, {} bytes per object{note} (geometric means over {} scenes)",
+            row.structure,
+            units::time(row.ns),
+            trimmed(*bytes),
+            overall.scenes.len()
+        );
+        svg.tip(&tip, |svg| {
+            if let Some(end) = labels[i].and_then(|label| label.leader) {
+                svg.line(*point, end, "leader");
+            }
+            svg.marker(*point, styles.shape(row.structure), &format!("mark {}", styles.class(row.structure)));
+            if let Some(label) = labels[i] {
+                svg.text(label.at, Anchor::Start, "label", row.structure);
+            }
+        });
+    }
+    Some(svg.finish(&format!("Memory against speed for {} rays", overall.rays)))
+}

@@ -1,0 +1,9 @@
+//! The command line as a user meets it.
+
+mod bad_input;
+mod browser;
+mod common;
+mod frame;
+mod pictures;
+mod records;
+mod trace;

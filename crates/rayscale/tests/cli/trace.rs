@@ -1,0 +1,90 @@
+//! `rayscale trace` and the files it reads and writes.
+
+use crate::common::{Folder, OBJ, RAYS, rayscale};
+use predicates::prelude::*;
+
+fn trace(folder: &Folder, more: &[&str]) -> assert_cmd::assert::Assert {
+    let mut command = rayscale(["trace", "--scene", "scene.obj", "--rays", "rays.csv", "--out", "hits.csv"]);
+    command.current_dir(folder.folder()).args(more).assert()
+}
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("scene.obj", OBJ);
+    folder.write("rays.csv", RAYS);
+    folder
+}
+
+#[test]
+fn hits_name_triangles_in_file_order_and_polygons_are_fanned() {
+    let folder = folder();
+    trace(&folder, &["--structure", "brute"]).success().stdout(predicate::str::contains("4 rays, 3 hits"));
+    let hits = folder.read("hits.csv");
+    let lines: Vec<&str> = hits.lines().collect();
+    assert_eq!(lines[0], "ray,object,t,u,v");
+    assert_eq!(lines[1], "0,2,2,0.25,0.25");
+    // The fan of the quad 1 2 3 4 is (1 2 3), (1 3 4); t is in units of the direction.
+    assert_eq!(lines[2], "1,0,1.5,0.25,0.5");
+    assert!(lines[3].starts_with("2,0,3,") || lines[3].starts_with("2,1,3,"), "{}", lines[3]);
+    assert_eq!(lines[4], "3,,,,");
+    assert_eq!(lines.len(), 5);
+}
+
+#[test]
+fn structures_and_kernels_agree() {
+    let folder = folder();
+    trace(&folder, &["--structure", "brute"]).success();
+    let expected = folder.read("hits.csv");
+    for structure in ["minmax", "sphere", "brute:simd=portable"] {
+        trace(&folder, &["--structure", structure, "--quiet"]).success();
+        assert_eq!(folder.read("hits.csv"), expected, "{structure}");
+    }
+    trace(&folder, &["--structure", "minmax", "--kernel", "watertight"]).success();
+    assert_eq!(folder.read("hits.csv").lines().count(), 5);
+}
+
+#[test]
+fn json_says_what_was_done() {
+    let folder = folder();
+    let out = trace(&folder, &["--structure", "minmax", "--json"]).success().get_output().stdout.clone();
+    let facts: serde_json::Value = serde_json::from_slice(&out).expect("JSON");
+    assert_eq!((facts["rays"].as_u64(), facts["hits"].as_u64()), (Some(4), Some(3)));
+    assert_eq!(facts["kernel"], "moller-trumbore");
+}
+
+#[test]
+fn a_malformed_ray_is_named_and_older_hits_stay() {
+    for (rays, message) in [
+        ("0,0,3,0,0,-1,0,inf\n0,0,3,0,0,oops,0,inf\n", "line 2, field `dz`: `oops`"),
+        ("0,0,3,0,0,-1,0,inf\n\n0,0,3,0,0,-1,0\n", "line 3: 7 fields"),
+        (
+            "0,0,3,0,0,-1,0,inf\n0,0,3,0,0,0,0,inf\n",
+            "line 2, fields `dx`, `dy`, `dz`: the ray's direction is zero",
+        ),
+        ("NaN,0,3,0,0,-1,0,inf\n", "line 1, fields `ox`, `oy`, `oz`"),
+        ("0,0,3,0,inf,-1,0,inf\n", "line 1, fields `dx`, `dy`, `dz`"),
+        ("0,0,3,0,0,-1,nan,inf\n", "line 1, fields `t_min`, `t_max`"),
+        ("x,y\n", "line 1: the header must be"),
+    ] {
+        let folder = folder();
+        folder.write("rays.csv", rays);
+        folder.write("hits.csv", "older hits");
+        trace(&folder, &["--structure", "brute"])
+            .code(2)
+            .stdout("")
+            .stderr(predicate::str::contains("rays.csv, ").and(predicate::str::contains(message)))
+            .stderr(predicate::str::contains("to do:"));
+        assert_eq!(folder.read("hits.csv"), "older hits");
+        assert_eq!(std::fs::read_dir(folder.folder()).unwrap().count(), 3, "no file is left over");
+    }
+}
+
+#[test]
+fn hits_do_not_replace_the_rays() {
+    let folder = folder();
+    trace(&folder, &["--structure", "brute", "--rays", "hits.csv"]).code(2);
+    let mut command =
+        rayscale(["trace", "--scene", "scene.obj", "--rays", "rays.csv", "--out", "./rays.csv"]);
+    command.current_dir(folder.folder()).args(["--structure", "brute"]).assert().code(2);
+    assert_eq!(folder.read("rays.csv"), RAYS);
+}
