@@ -33,9 +33,13 @@ fn settings_that_make_no_sense_are_named() {
 #[test]
 fn settings_print_as_they_are_set() {
     let mut ssm = Ssm::default();
-    for (name, value) in
-        [("resolution", "8x4x2"), ("simd", "portable"), ("kernel", "moller-trumbore"), ("memory", "5")]
-    {
+    for (name, value) in [
+        ("resolution", "8x4x2"),
+        ("simd", "portable"),
+        ("kernel", "moller-trumbore"),
+        ("memory", "5"),
+        ("divide", "1.5"),
+    ] {
         ssm.set(name, value).unwrap();
     }
     let printed = ssm.settings();
@@ -51,20 +55,20 @@ fn settings_print_as_they_are_set() {
 fn too_large_a_grid_is_refused_before_it_is_allocated() {
     let scene = cloud(100, 0.1);
     let settings = Settings::new(Resolution::Slices([16_384; 3]));
-    for builder in [&SsmList { settings } as &dyn Builder, &Ssm { settings }] {
+    for builder in [&SsmList { settings } as &dyn Builder, &Ssm { settings, divide: None }] {
         let Err(BuildError::TooLarge { bytes, limit, .. }) = builder.build(&scene, &Need::GENERAL) else {
             panic!("2^42 cells were built");
         };
         assert!(bytes > 1 << 43 && limit > 0);
     }
     let settings = Settings { memory: Some(2200), ..Settings::new(Resolution::Slices([8; 3])) };
-    for builder in [&SsmList { settings } as &dyn Builder, &Ssm { settings }] {
+    for builder in [&SsmList { settings } as &dyn Builder, &Ssm { settings, divide: None }] {
         let Err(BuildError::TooLarge { bytes, limit: 2200, .. }) = builder.build(&scene, &Need::GENERAL)
         else {
             panic!("more than 2200 bytes were taken");
         };
         let fits = Settings { memory: Some(bytes.max(1 << 16)), ..settings };
-        Ssm { settings: fits }.build(&scene, &Need::GENERAL).unwrap();
+        Ssm { settings: fits, divide: None }.build(&scene, &Need::GENERAL).unwrap();
         SsmList { settings: fits }.build(&scene, &Need::GENERAL).unwrap();
     }
 }

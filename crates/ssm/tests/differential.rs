@@ -9,8 +9,13 @@ use proptest::prelude::*;
 use ssm::{Resolution, Settings, Ssm, SsmList};
 
 /// All builders with these settings.
-fn builders(settings: Settings) -> [Box<dyn Builder>; 2] {
-    [Box::new(SsmList { settings }), Box::new(Ssm { settings })]
+fn builders(settings: Settings) -> [Box<dyn Builder>; 4] {
+    [
+        Box::new(SsmList { settings }),
+        Box::new(Ssm { settings, divide: None }),
+        Box::new(Ssm { settings, divide: Some(0.5) }),
+        Box::new(Ssm { settings, divide: Some(3.0) }),
+    ]
 }
 
 fn check(scene: &Scene, count: usize, settings: Settings) {

@@ -1,43 +1,80 @@
 //! The cells of a grid by bricks of 4×4×4, with a bit for each cell that holds anything, and the
-//! walk of a ray through them that steps over empty bricks at once.
+//! walk of a ray through them that steps over empty bricks at once. A cell may be divided again into a
+//! brick of its own.
 
-use accel::grid::{Grid, Segment};
+use super::way::{Frame, Way, advance};
+use accel::grid::Grid;
+use accel::{Aabb, Ray};
 use std::ops::Range;
 
 /// Cells along an edge of a brick.
-const EDGE: u32 = 4;
+pub(super) const EDGE: u32 = 4;
+/// Two to this is [`EDGE`].
+const SHIFT: u32 = 2;
 /// Cells of a brick.
 pub(super) const BRICK: usize = 64;
 
-/// The segment is mapped into the lattice of cells shrunk by this on each side: its points never
-/// lie on the outer planes, so the walk needs no test for the last slice. Small
-/// against the grid's own margin, which makes up for it.
-const INSET: f32 = 1.0 / (1 << 20) as f32;
+/// Most levels of bricks within cells.
+const MOST_LEVELS: usize = 7;
 
-/// A component of a segment below which it counts as parallel to the slices.
-const PARALLEL: f32 = 1.0 / (1 << 23) as f32;
-
-/// The layout of cells.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
-    /// Slices on each axis.
-    resolution: [u32; 3],
-    /// Bricks on each axis.
+/// How the cells lie, and which of them hold anything.
+#[derive(Debug)]
+pub(super) struct Field {
+    /// Slices on each axis, of the finest level.
+    lattice: Grid,
+    frame: Frame,
+    /// How often a cell may be divided.
+    levels: u32,
+    /// Bricks of the grid itself on each axis.
     bricks: [u32; 3],
+    /// A bit for each cell of each brick; those of divided cells come behind the grid's own.
+    pub occupied: Box<[u64]>,
+    /// A bit for each divided cell; empty if there is none.
+    pub divided: Box<[u64]>,
 }
 
-impl Layout {
-    pub fn new(resolution: [u32; 3]) -> Self {
-        Self { resolution, bricks: resolution.map(|n| n.div_ceil(EDGE)) }
+/// What is done at the cells of a walk.
+pub(super) trait Visit {
+    /// Looks at a cell that holds references; returns up to which s others must be
+    /// looked at, −∞ to end the walk. Must be `#[inline(always)]`.
+    fn cell(&mut self, number: usize) -> f32;
+    /// The brick that the divided cell `number` holds.
+    fn brick(&self, number: usize) -> u32;
+    /// Told of every step. Must be `#[inline(always)]`.
+    fn step(&mut self);
+}
+
+impl Field {
+    /// The lattice of a grid whose cells may be divided so often, or less where slices
+    /// would become too thin.
+    pub fn new(grid: &Grid, levels: u32) -> Self {
+        let finest =
+            |levels: u32| Grid::new(*grid.bounds(), grid.resolution().map(|n| n << (SHIFT * levels)));
+        let divided = (0..=levels.min(MOST_LEVELS as u32)).rev().find_map(|l| Some((finest(l).ok()?, l)));
+        let (lattice, levels) = divided.unwrap_or((*grid, 0));
+        let bricks = grid.resolution().map(|n| n.div_ceil(EDGE));
+        let frame = Frame::new(&lattice);
+        Self { lattice, frame, levels, bricks, occupied: Box::new([]), divided: Box::new([]) }
     }
 
-    /// Number of bricks.
+    /// How often a cell may be divided.
+    pub fn levels(&self) -> u32 {
+        self.levels
+    }
+
+    /// Number of bricks of the grid itself.
     pub fn bricks(&self) -> u128 {
         self.bricks.iter().map(|n| u128::from(*n)).product()
     }
 
-    /// Appends the numbers of the cells in these slices.
-    pub fn cells(&self, [xs, ys, zs]: [Range<u32>; 3], found: &mut Vec<u32>) {
+    /// The slices of the finest level that a box touches.
+    pub fn slices(&self, bounds: &Aabb) -> [Range<u32>; 3] {
+        [0, 1, 2].map(|axis| self.lattice.slices(axis, bounds))
+    }
+
+    /// Appends the numbers of the cells in these slices of the finest level.
+    pub fn cells(&self, slices: &[Range<u32>; 3], found: &mut Vec<u32>) {
+        let [xs, ys, zs] = slices.each_ref().map(|r| at_level(r, self.levels));
         let [bx, by, _] = self.bricks;
         for z in zs {
             for y in ys.clone() {
@@ -48,137 +85,93 @@ impl Layout {
         }
     }
 
-    /// Walks a segment through the cells whose bit is set in `occupied`, a word for each brick, in order.
-    ///
-    /// `visit` gets the number of a cell and returns up to which s cells must
-    /// be looked at; −∞ ends the walk. `step` is told of each brick, and of each cell of bricks that hold anything.
-    #[inline(always)]
-    pub fn walk(
-        &self,
-        occupied: &[u64],
-        segment: &Segment,
-        mut visit: impl FnMut(usize) -> f32,
-        mut step: impl FnMut(),
-    ) {
-        let rail = Rail::new(self.resolution, segment);
+    /// The slices of the grid in which a cell lies, of the grid's own level.
+    pub fn place(&self, cell: u32) -> [u32; 3] {
+        let (brick, within) = (cell / BRICK as u32, cell % BRICK as u32);
         let [bx, by, _] = self.bricks;
-        let stride = [1, bx, bx * by];
-        let mut cell = rail.cell(0.0, self.resolution);
-        let mut brick = cell.map(|c| c / EDGE);
-        let mut index = brick[0] + brick[1] * stride[1] + brick[2] * stride[2];
-        let mut next = [0, 1, 2].map(|a| rail.plane(a, brick[a] * EDGE, EDGE));
+        let brick = [brick % bx, brick / bx % by, brick / (bx * by)];
+        let within = [within % EDGE, within / EDGE % EDGE, within / (EDGE * EDGE)];
+        [0, 1, 2].map(|a| brick[a] * EDGE + within[a])
+    }
+
+    /// The part of a ray inside the grid.
+    #[inline(always)]
+    pub fn clip(&self, ray: &Ray) -> Option<Way> {
+        self.frame.clip(ray)
+    }
+
+    /// Visits the occupied cells on a way up to s = `limit`, at most 1, in order.
+    #[inline(always)]
+    pub fn walk<V: Visit>(&self, way: &Way, mut limit: f32, visit: &mut V) {
+        let [bx, by, _] = self.bricks;
+        let top = SHIFT * self.levels;
+        let edge = top + SHIFT;
+        let mut brick = way.cell(0.0).map(|c| c >> edge);
         let mut enter = 0f32;
-        let mut limit = 1f32;
         loop {
-            step();
-            let mut axis = first(next);
-            let mut exit = next[axis].max(enter);
-            let bits = occupied[index as usize];
-            if bits != 0 {
-                cell = rail.cell(enter, self.resolution);
-                for a in 0..3 {
-                    cell[a] = cell[a].clamp(brick[a] * EDGE, brick[a] * EDGE + (EDGE - 1));
+            visit.step();
+            let index = (brick[2] * by + brick[1]) * bx + brick[0];
+            let mut bits = self.occupied[index as usize];
+            if bits == 0 {
+                let (next, exit) = advance(way, brick, way.planes(brick, edge));
+                enter = exit.max(enter);
+                if enter > limit {
+                    return;
                 }
-                let mut near = [0, 1, 2].map(|a| rail.plane(a, cell[a], 1));
-                loop {
-                    step();
-                    axis = first(near);
-                    exit = near[axis].max(enter);
-                    let within = cell[0] % EDGE + cell[1] % EDGE * 4 + cell[2] % EDGE * 16;
-                    if bits >> within & 1 != 0 {
-                        limit = limit.min(visit(index as usize * BRICK + within as usize));
+                brick = next;
+                continue;
+            }
+            let mut node = index;
+            let mut parents = [0u32; MOST_LEVELS];
+            let mut shift = top;
+            let mut cell = way.cell_within(enter, shift, brick);
+            'node: loop {
+                visit.step();
+                let within = cell[0] % EDGE + cell[1] % EDGE * 4 + cell[2] % EDGE * 16;
+                let (next, exit) = advance(way, cell, way.planes(cell, shift));
+                if bits >> within & 1 != 0 {
+                    let number = node as usize * BRICK + within as usize;
+                    if shift > 0 && self.is_divided(node, within) {
+                        shift -= SHIFT;
+                        parents[(shift / SHIFT) as usize] = node;
+                        node = visit.brick(number);
+                        bits = self.occupied[node as usize];
+                        cell = way.cell_within(enter, shift, cell);
+                        continue;
                     }
-                    if exit > limit {
-                        return;
-                    }
-                    enter = exit;
-                    let from = cell[axis] / EDGE;
-                    cell[axis] = cell[axis].wrapping_add(rail.step[axis]);
-                    if cell[axis] / EDGE != from {
-                        break;
-                    }
-                    near[axis] = rail.plane(axis, cell[axis], 1);
+                    limit = limit.min(visit.cell(number));
                 }
+                enter = exit.max(enter);
+                if enter > limit {
+                    return;
+                }
+                let mut crossed = (cell[0] ^ next[0]) | (cell[1] ^ next[1]) | (cell[2] ^ next[2]);
+                cell = next;
+                if crossed < EDGE {
+                    continue;
+                }
+                while crossed >= EDGE {
+                    cell = cell.map(|c| c >> SHIFT);
+                    if shift == top {
+                        brick = cell;
+                        break 'node;
+                    }
+                    crossed >>= SHIFT;
+                    node = parents[(shift / SHIFT) as usize];
+                    shift += SHIFT;
+                }
+                bits = self.occupied[node as usize];
             }
-            if exit > limit {
-                return;
-            }
-            enter = exit;
-            brick[axis] = brick[axis].wrapping_add(rail.step[axis]);
-            index = index.wrapping_add(rail.step[axis].wrapping_mul(stride[axis]));
-            next[axis] = rail.plane(axis, brick[axis] * EDGE, EDGE);
         }
     }
-}
 
-/// The axis of the least of three numbers.
-#[inline(always)]
-fn first([x, y, z]: [f32; 3]) -> usize {
-    if x <= y {
-        if x <= z { 0 } else { 2 }
-    } else if y <= z {
-        1
-    } else {
-        2
-    }
-}
-
-/// A segment in units of cells.
-struct Rail {
-    start: [f32; 3],
-    delta: [f32; 3],
-    /// Plane p of an axis is met at s = p·scale + offset.
-    scale: [f32; 3],
-    offset: [f32; 3],
-    /// 1, or −1 in two's complement.
-    step: [u32; 3],
-    forward: [u32; 3],
-}
-
-impl Rail {
     #[inline(always)]
-    fn new(resolution: [u32; 3], segment: &Segment) -> Self {
-        let (start, delta) = (segment.start.to_array(), segment.delta.to_array());
-        let mut rail = Self {
-            start: [0.0; 3],
-            delta: [0.0; 3],
-            scale: [0.0; 3],
-            offset: [f32::INFINITY; 3],
-            step: [1; 3],
-            forward: [1; 3],
-        };
-        for a in 0..3 {
-            let n = resolution[a] as f32;
-            let shrunk = 1.0 - 2.0 * INSET;
-            let (unit, along) = (start[a] * shrunk + INSET, delta[a] * shrunk);
-            (rail.start[a], rail.delta[a]) = (unit * n, along * n);
-            if delta[a].abs() >= PARALLEL {
-                let inverse = 1.0 / along;
-                rail.scale[a] = inverse / n;
-                rail.offset[a] = -unit * inverse;
-            }
-            if delta[a] < 0.0 {
-                rail.step[a] = u32::MAX;
-                rail.forward[a] = 0;
-            }
-        }
-        rail
-    }
-
-    /// Where the walk leaves the `width` slices from `slice` on, on one axis.
-    #[inline(always)]
-    fn plane(&self, axis: usize, slice: u32, width: u32) -> f32 {
-        (slice.wrapping_add(self.forward[axis] * width)) as f32 * self.scale[axis] + self.offset[axis]
-    }
-
-    /// The cell at s.
-    #[inline(always)]
-    fn cell(&self, s: f32, resolution: [u32; 3]) -> [u32; 3] {
-        [0, 1, 2].map(|a| ((self.start[a] + s * self.delta[a]) as u32).min(resolution[a] - 1))
+    fn is_divided(&self, node: u32, within: u32) -> bool {
+        self.divided.get(node as usize).is_some_and(|bits| bits >> within & 1 != 0)
     }
 }
 
-/// The slices of a box on each axis.
-pub(super) fn slices(grid: &Grid, bounds: &accel::Aabb) -> [Range<u32>; 3] {
-    [0, 1, 2].map(|axis| grid.slices(axis, bounds))
+/// Slices of the finest level as slices that many levels up.
+pub(super) fn at_level(range: &Range<u32>, levels: u32) -> Range<u32> {
+    range.start >> (SHIFT * levels)..((range.end - 1) >> (SHIFT * levels)) + 1
 }

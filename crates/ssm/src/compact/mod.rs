@@ -1,8 +1,10 @@
 //! `ssm`: the compact grid.
 
+mod divide;
 mod field;
 mod order;
 mod trace;
+mod way;
 
 use crate::register::{Limit, register};
 use crate::{Resolution, Settings};
@@ -10,36 +12,53 @@ use accel::grid::Grid;
 use accel::objects::EMPTY_SLOT;
 use accel::{
     Accel, Blocks, BuildError, Builder, Counters, Footprint, Hit, Need, Objects, Ray, RaySet, Scene,
-    WithObjects,
+    WithObjects, vec_bytes,
 };
-use field::{BRICK, Layout, slices};
-use order::GROUP;
+use field::{BRICK, Field};
+use order::{GROUP, Order};
 use rayon::prelude::*;
 
 const ID: &str = "ssm";
 
 /// Builds `ssm`: for each cell a position among the references, for each reference the number of a
-/// group of objects, and a bit for each cell that holds any.
+/// group of objects, and a bit for each cell that holds any. Cells that hold much may be divided again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ssm {
-    /// The settings.
+    /// The settings of any grid.
     pub settings: Settings,
+    /// A cell is divided into 4×4×4 where this is expected to spare a ray through it so many
+    /// tests of groups, and so on; `None` for the plain grid.
+    pub divide: Option<f32>,
 }
 
 impl Default for Ssm {
-    /// Four cells for each object.
     fn default() -> Self {
-        Self { settings: Settings::new(Resolution::Density(4.0)) }
+        Self { settings: Settings::new(Resolution::Density(1.0)), divide: Some(6.0) }
     }
 }
 
 impl Ssm {
-    /// Changes one setting, see [`Settings::NAMES`].
+    /// Names and meanings of the settings that [`Settings::NAMES`] does not list.
+    pub const NAMES: [(&str, &str); 1] =
+        [("divide", "tests of 16 objects that dividing a cell must spare a ray, or off")];
+
+    /// Changes one setting, see [`Settings::NAMES`] and [`Ssm::NAMES`].
     ///
     /// # Errors
     /// [`BuildError::Setting`] if there is no such setting or the value makes no sense.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), BuildError> {
-        self.settings.set(ID, name, value)
+        if name != "divide" {
+            return self.settings.set(ID, name, value);
+        }
+        self.divide = match value.parse::<f32>() {
+            _ if value == "off" => None,
+            Ok(gain) if gain > 0.0 && gain.is_finite() => Some(gain),
+            _ => {
+                let problem = format!("'{value}' is neither a number of tests above 0 nor off");
+                return Err(BuildError::Setting { structure: ID.into(), setting: name.into(), problem });
+            }
+        };
+        Ok(())
     }
 }
 
@@ -49,7 +68,8 @@ impl Builder for Ssm {
     }
 
     fn settings(&self) -> String {
-        self.settings.display()
+        let divide = self.divide.map_or("off".into(), |gain| gain.to_string());
+        format!("{} divide={divide}", self.settings.display())
     }
 
     fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
@@ -60,57 +80,75 @@ impl Builder for Ssm {
 impl<'s> WithObjects<'s> for Ssm {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
     fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
-        Ok(Box::new(Built::new(objects, &self.settings)?))
+        Ok(Box::new(Built::new(objects, &self)?))
+    }
+}
+
+/// The lists of all cells, one behind another.
+struct Cells {
+    /// Where the references of each cell begin and, one further, end; cells go brick by brick.
+    positions: Vec<u32>,
+    /// Numbers of groups of objects, or of a brick in the place of a divided cell's list.
+    references: Vec<u32>,
+}
+
+impl Cells {
+    #[inline(always)]
+    fn list(&self, cell: usize) -> &[u32] {
+        &self.references[self.positions[cell] as usize..self.positions[cell + 1] as usize]
+    }
+
+    fn length(&self, cell: usize) -> u32 {
+        self.positions[cell + 1] - self.positions[cell]
     }
 }
 
 struct Built<O: Objects> {
     settings: Settings,
     grid: Grid,
-    layout: Layout,
-    /// Where the references of each cell begin and, one further, end; cells go brick by brick.
-    cells: Box<[u32]>,
-    /// Groups of objects.
-    references: Box<[u32]>,
-    /// A bit for each cell of a brick.
-    occupied: Box<[u64]>,
+    field: Field,
+    cells: Cells,
+    /// Whether the first group is in no cell and meets every ray.
+    apart: bool,
     blocks: O::Blocks,
     _objects: O,
 }
 
+/// Bytes of a brick: a position for each cell, and bits.
+const BRICK_BYTES: u128 = 4 * BRICK as u128 + 8;
+
 impl<O: Objects> Built<O> {
-    fn new(objects: O, settings: &Settings) -> Result<Self, BuildError> {
-        let bounds = crate::resolution::bounds(&objects);
-        let grid = crate::resolution::grid(ID, settings, bounds, objects.len())?;
-        let layout = Layout::new(grid.resolution());
+    fn new(objects: O, ssm: &Ssm) -> Result<Self, BuildError> {
+        let settings = &ssm.settings;
+        let Order { slots, apart, bounds } = order::order(&objects);
+        let others = slots.len() - if apart { GROUP } else { 0 };
+        let grid = crate::resolution::grid(ID, settings, bounds, others)?;
+        let mut field = Field::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
         let limit = Limit::of(ID, settings);
-        // A position for each cell, and its bit.
-        const BRICK_BYTES: u128 = 4 * BRICK as u128 + 8;
-        let bricks = limit.cells(layout.bricks() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
-        let order = order::morton(&objects, &bounds);
-        let groups = (order.len() / GROUP) as u32;
+        let bricks = limit.cells(field.bricks() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
+        let groups = (slots.len() / GROUP) as u32;
         let bytes = |references: u64| bricks as u128 * BRICK_BYTES + 4 * u128::from(references);
         let lists = register(bricks * BRICK, groups, limit, bytes, |group, found| {
+            if apart && group == 0 {
+                return;
+            }
             let first = group as usize * GROUP;
-            for object in order[first..first + GROUP].iter().filter(|object| **object != EMPTY_SLOT) {
-                layout.cells(slices(&grid, &objects.bounds(*object)), found);
+            for object in slots[first..first + GROUP].iter().filter(|object| **object != EMPTY_SLOT) {
+                field.cells(&field.slices(&objects.bounds(*object)), found);
             }
             found.sort_unstable();
             found.dedup();
         })?;
-        let occupied = lists.offsets.par_windows(BRICK + 1).step_by(BRICK).map(|ends| {
+        let mut cells = Cells { positions: lists.offsets, references: lists.references };
+        let occupied = cells.positions.par_windows(BRICK + 1).step_by(BRICK).map(|ends| {
             (0..BRICK).fold(0, |bits, cell| bits | u64::from(ends[cell] != ends[cell + 1]) << cell)
         });
-        Ok(Self {
-            settings: *settings,
-            grid,
-            layout,
-            occupied: occupied.collect::<Vec<_>>().into_boxed_slice(),
-            cells: lists.offsets.into_boxed_slice(),
-            references: lists.references.into_boxed_slice(),
-            blocks: objects.blocks(&order),
-            _objects: objects,
-        })
+        field.occupied = occupied.collect::<Vec<_>>().into_boxed_slice();
+        if let Some(gain) = ssm.divide {
+            cells = divide::divide(cells, &mut field, &objects, &slots, gain, limit)?;
+        }
+        let blocks = objects.blocks(&slots);
+        Ok(Self { settings: *settings, grid, field, cells, apart, blocks, _objects: objects })
     }
 }
 
@@ -133,19 +171,23 @@ impl<O: Objects> Accel for Built<O> {
 
     fn footprint(&self) -> Footprint {
         Footprint::default()
-            .structure("cells", size_of_val(&*self.cells))
-            .structure("references", size_of_val(&*self.references))
-            .structure("occupied", size_of_val(&*self.occupied))
+            .structure("cells", vec_bytes(&self.cells.positions))
+            .structure("references", vec_bytes(&self.cells.references))
+            .structure("occupied", size_of_val(&*self.field.occupied))
+            .structure("divided", size_of_val(&*self.field.divided))
             .geometry_copy("blocks", self.blocks.bytes())
     }
 
     fn plan(&self) -> String {
         let [x, y, z] = self.grid.resolution();
-        let filled: u32 = self.occupied.iter().map(|bits| bits.count_ones()).sum();
+        let divided: u32 = self.field.divided.iter().map(|bits| bits.count_ones()).sum();
+        let filled: u32 = self.field.occupied.iter().map(|bits| bits.count_ones()).sum();
         format!(
-            "{x}x{y}x{z} cells by {}; {filled} of them hold {} references to groups of {GROUP}",
+            "{x}x{y}x{z} cells by {}, the largest objects {}, {divided} cells divided into 4x4x4; {} cells hold {} references to groups of {GROUP}",
             self.settings.resolution,
-            self.references.len()
+            if self.apart { "set apart" } else { "among the others" },
+            filled - divided,
+            self.cells.references.len() - divided as usize
         )
     }
 

@@ -8,9 +8,45 @@ use rayon::prelude::*;
 /// Objects tested together: what one reference of a cell stands for.
 pub(super) const GROUP: usize = ROW;
 
+/// How the objects are packed.
+pub(super) struct Order {
+    /// The object of each slot, or an empty slot. The first group holds what is set apart.
+    pub slots: Vec<u32>,
+    /// Whether any object is set apart.
+    pub apart: bool,
+    /// The box of the others.
+    pub bounds: Aabb,
+}
+
+/// The part of the scene's largest extent from which on an object is large.
+const LARGE: f64 = 0.25;
+
+/// Sets the largest objects apart, a group at most, and puts the others in order.
+///
+/// A few objects as large as the scene would be listed all over the grid, and stretch it.
+pub(super) fn order<O: Objects>(objects: &O) -> Order {
+    let all = crate::resolution::bounds(objects, |_| true);
+    let size = |bounds: &Aabb| {
+        (0..3).map(|a| f64::from(bounds.max[a]) - f64::from(bounds.min[a])).fold(0.0, f64::max)
+    };
+    let least = LARGE * size(&all);
+    let ids = (0..objects.len() as u32).into_par_iter().with_min_len(1 << 12);
+    let mut large: Vec<(f64, u32)> =
+        ids.map(|id| (size(&objects.bounds(id)), id)).filter(|(size, _)| *size > least).collect();
+    large.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    large.truncate(GROUP);
+    let mut large: Vec<u32> = large.into_iter().map(|(_, id)| id).collect();
+    large.sort_unstable();
+    let bounds = crate::resolution::bounds(objects, |id| large.binary_search(&id).is_err());
+    let mut slots = large.clone();
+    slots.resize(slots.len().next_multiple_of(GROUP), EMPTY_SLOT);
+    slots.extend(morton(objects, &bounds, |id| large.binary_search(&id).is_err()));
+    Order { slots, apart: !large.is_empty(), bounds }
+}
+
 /// Objects along a Morton curve through the centres of their boxes, so that the objects of a group are
 /// neighbours; the last group is filled up with empty slots.
-pub(super) fn morton<O: Objects>(objects: &O, bounds: &Aabb) -> Vec<u32> {
+fn morton<O: Objects>(objects: &O, bounds: &Aabb, wanted: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     let scale = [0, 1, 2].map(|a| {
         let extent = f64::from(bounds.max[a]) - f64::from(bounds.min[a]);
         if extent > 0.0 { f64::from(1 << BITS) / extent } else { 0.0 }
@@ -24,7 +60,7 @@ pub(super) fn morton<O: Objects>(objects: &O, bounds: &Aabb) -> Vec<u32> {
         spread_axis(0) | spread_axis(1) | spread_axis(2)
     };
     let ids = (0..objects.len() as u32).into_par_iter().with_min_len(1 << 12);
-    let mut keyed: Vec<(u64, u32)> = ids.map(|id| (key(id), id)).collect();
+    let mut keyed: Vec<(u64, u32)> = ids.filter(|id| wanted(*id)).map(|id| (key(id), id)).collect();
     keyed.par_sort_unstable();
     let slots = keyed.len().next_multiple_of(GROUP);
     let order = keyed.into_iter().map(|(_, id)| id);
@@ -58,13 +94,16 @@ mod tests {
 
     #[test]
     fn every_object_has_one_slot() {
-        let boxes: Vec<Aabb> = (0..37)
+        let mut boxes: Vec<Aabb> = (0..37)
             .map(|i| Aabb::of_points([Vec3::new((i * 7 % 37) as f32, 0.0, (i * 5 % 11) as f32)]))
             .collect();
-        let objects = Boxes::new(&boxes);
-        let mut order = morton(&objects, &crate::resolution::bounds(&objects));
-        assert_eq!(order.len(), 48);
+        boxes[5].max.x = 60.0;
+        let order = order(&Boxes::new(&boxes));
+        assert_eq!(order.slots.len(), 16 + 48);
+        assert!(order.apart && order.bounds.max.x < 37.0);
+        assert_eq!(order.slots[..2], [5, EMPTY_SLOT]);
+        let mut order: Vec<u32> = order.slots.into_iter().filter(|id| *id != EMPTY_SLOT).collect();
         order.sort_unstable();
-        assert!(order[..37].iter().copied().eq(0..37) && order[37..].iter().all(|id| *id == EMPTY_SLOT));
+        assert!(order.into_iter().eq(0..37));
     }
 }

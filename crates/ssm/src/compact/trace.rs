@@ -1,14 +1,16 @@
 //! Tracing: one ray, or batches on all threads of the current pool.
 
-use super::Built;
+use super::field::Visit;
 use super::order::GROUP;
+use super::way::Way;
+use super::{Built, Cells};
 use accel::objects::{BLOCK, Blocks};
 use accel::simd::{Simd, Task};
 use accel::{Count, Counters, Nearest, NoCount, Objects, Ray, RaySet};
 use rayon::prelude::*;
 
-/// Rays traced by one task of the thread pool.
-const CHUNK: usize = 4096;
+/// Rays for which the instruction set is chosen once.
+const BATCH: usize = 512;
 
 /// The groups that a ray has met lately: a place for each of a number of groups in a row, which
 /// neighbours in space mostly are.
@@ -16,59 +18,119 @@ struct Mailbox([u32; 16]);
 
 impl Mailbox {
     #[inline(always)]
-    fn new() -> Self {
-        Self([u32::MAX; 16])
-    }
-
-    #[inline(always)]
     fn contains_or_insert(&mut self, group: u32) -> bool {
         let place = &mut self.0[group as usize % 16];
         std::mem::replace(place, group) == group
     }
 }
 
-impl<O: Objects> Built<O> {
-    /// The nearest hit, or any hit.
+/// A ray on its way through the cells.
+struct Traveller<'a, S, B: Blocks, C, const ANY: bool> {
+    simd: S,
+    cells: &'a Cells,
+    blocks: &'a B,
+    ray: B::One,
+    way: Way,
+    met: Mailbox,
+    best: Nearest,
+    count: &'a mut C,
+}
+
+impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Traveller<'_, S, B, C, ANY> {
+    /// Tests the objects of a group.
     #[inline(always)]
-    fn walk<S: Simd, C: Count, const ANY: bool>(&self, s: S, ray: &Ray, count: &mut C) -> Nearest {
-        let mut best = Nearest::new(ray.t_max);
-        let Some(segment) = self.grid.clip(ray) else {
-            return best;
-        };
-        let prepared = self.blocks.one(ray);
-        let mut met = Mailbox::new();
-        let mut cells = 0;
-        let visit = |cell: usize| {
-            let list = self.cells[cell] as usize..self.cells[cell + 1] as usize;
-            let before = best.t;
-            for &group in &self.references[list] {
-                count.candidates(1);
-                if met.contains_or_insert(group) {
-                    continue;
-                }
-                count.blocks(1);
-                count.tests(GROUP as u64);
-                let first = group as usize * GROUP;
-                let mask = (u64::MAX >> (BLOCK - GROUP)) << (first % BLOCK);
-                if ANY {
-                    if self.blocks.any(s, first / BLOCK, mask, &prepared, best.t) {
-                        best.object = 0;
-                        return f32::NEG_INFINITY;
-                    }
-                } else {
-                    self.blocks.closest(s, first / BLOCK, mask, &prepared, &mut best);
-                }
+    fn test(&mut self, group: u32) {
+        self.count.blocks(1);
+        self.count.tests(GROUP as u64);
+        let first = group as usize * GROUP;
+        let mask = (u64::MAX >> (BLOCK - GROUP)) << (first % BLOCK);
+        if !ANY {
+            self.blocks.closest(self.simd, first / BLOCK, mask, &self.ray, &mut self.best);
+        } else if self.blocks.any(self.simd, first / BLOCK, mask, &self.ray, self.best.t) {
+            self.best.object = 0;
+        }
+    }
+}
+
+impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for Traveller<'_, S, B, C, ANY> {
+    #[inline(always)]
+    fn cell(&mut self, number: usize) -> f32 {
+        let before = self.best.t;
+        for &group in self.cells.list(number) {
+            self.count.candidates(1);
+            if self.met.contains_or_insert(group) {
+                continue;
             }
-            if best.t < before { segment.limit(best.t) } else { f32::INFINITY }
-        };
-        self.layout.walk(&self.occupied, &segment, visit, || cells += 1);
-        count.cells(cells);
-        best
+            self.test(group);
+            if ANY && self.best.object != Nearest::NONE {
+                return f32::NEG_INFINITY;
+            }
+        }
+        if self.best.t < before { self.way.limit(self.best.t) } else { f32::INFINITY }
+    }
+
+    #[inline(always)]
+    fn brick(&self, number: usize) -> u32 {
+        self.cells.references[self.cells.positions[number] as usize]
+    }
+
+    #[inline(always)]
+    fn step(&mut self) {
+        self.count.cells(1);
+    }
+}
+
+/// Rays traced with one instruction set, for the nearest hit or any.
+struct Batch<'a, O: Objects, C, const ANY: bool> {
+    built: &'a Built<O>,
+    rays: &'a [Ray],
+    found: &'a mut [Nearest],
+    count: &'a mut C,
+}
+
+impl<O: Objects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { built, rays, found, count } = self;
+        let Built { field, cells, blocks, .. } = built;
+        for (ray, found) in rays.iter().zip(found) {
+            let mut traveller = Traveller::<_, _, _, ANY> {
+                simd,
+                cells,
+                blocks,
+                ray: blocks.one(ray),
+                way: Way::NOWHERE,
+                met: Mailbox([u32::MAX; 16]),
+                best: Nearest::new(ray.t_max),
+                count,
+            };
+            if built.apart {
+                traveller.test(0);
+            }
+            if !(ANY && traveller.best.object != Nearest::NONE)
+                && let Some(way) = field.clip(ray)
+            {
+                traveller.way = way;
+                let limit = way.limit(traveller.best.t).min(1.0);
+                field.walk(&way, limit, &mut traveller);
+            }
+            *found = traveller.best;
+        }
+    }
+}
+
+impl<O: Objects> Built<O> {
+    fn batch<C: Count, const ANY: bool>(&self, rays: &[Ray], found: &mut [Nearest], count: &mut C) {
+        self.settings.simd.run(Batch::<_, _, ANY> { built: self, rays, found, count });
     }
 
     /// One ray.
     pub(super) fn nearest<const ANY: bool>(&self, ray: &Ray) -> Nearest {
-        self.settings.simd.run(One::<O, ANY>(self, ray))
+        let mut found = [Nearest::new(ray.t_max)];
+        self.batch::<_, ANY>(std::slice::from_ref(ray), &mut found, &mut NoCount);
+        found[0]
     }
 
     /// All rays of a set.
@@ -79,57 +141,39 @@ impl<O: Objects> Built<O> {
         of: impl Fn(&Nearest) -> T + Sync,
     ) {
         assert_eq!(rays.len(), out.len(), "one place for each ray");
-        out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
-            let batch = Batch::<O, _, _, ANY> { built: self, rays, first: chunk * CHUNK, out, of: &of };
-            self.settings.simd.run(batch);
-        });
+        let work = |(batch, out): (usize, &mut [T])| {
+            let mut made = Vec::new();
+            let own = slice(rays, batch * BATCH, out.len(), &mut made);
+            let mut found = [Nearest::new(0.0); BATCH];
+            self.batch::<_, ANY>(own, &mut found[..out.len()], &mut NoCount);
+            for (out, nearest) in out.iter_mut().zip(&found) {
+                *out = of(nearest);
+            }
+        };
+        out.par_chunks_mut(BATCH).enumerate().with_min_len(8).for_each(work);
     }
 
     /// What tracing a set costs.
     pub(super) fn counted<const ANY: bool>(&self, rays: &RaySet) -> Counters {
-        self.settings.simd.run(Counted::<O, ANY>(self, rays))
-    }
-}
-
-struct One<'a, O: Objects, const ANY: bool>(&'a Built<O>, &'a Ray);
-
-impl<O: Objects, const ANY: bool> Task for One<'_, O, ANY> {
-    type Out = Nearest;
-    #[inline(always)]
-    fn run<S: Simd>(self, s: S) -> Nearest {
-        self.0.walk::<S, _, ANY>(s, self.1, &mut NoCount)
-    }
-}
-
-struct Batch<'a, O: Objects, T, F, const ANY: bool> {
-    built: &'a Built<O>,
-    rays: &'a RaySet,
-    first: usize,
-    out: &'a mut [T],
-    of: &'a F,
-}
-
-impl<O: Objects, T, F: Fn(&Nearest) -> T, const ANY: bool> Task for Batch<'_, O, T, F, ANY> {
-    type Out = ();
-    #[inline(always)]
-    fn run<S: Simd>(self, s: S) {
-        for (i, out) in self.out.iter_mut().enumerate() {
-            let ray = self.rays.ray(self.first + i);
-            *out = (self.of)(&self.built.walk::<S, _, ANY>(s, &ray, &mut NoCount));
-        }
-    }
-}
-
-struct Counted<'a, O: Objects, const ANY: bool>(&'a Built<O>, &'a RaySet);
-
-impl<O: Objects, const ANY: bool> Task for Counted<'_, O, ANY> {
-    type Out = Counters;
-    #[inline(always)]
-    fn run<S: Simd>(self, s: S) -> Counters {
         let mut counters = Counters::default();
-        for i in 0..self.1.len() {
-            self.0.walk::<S, _, ANY>(s, &self.1.ray(i), &mut counters);
+        let mut made = Vec::new();
+        for first in (0..rays.len()).step_by(BATCH) {
+            let own = slice(rays, first, BATCH.min(rays.len() - first), &mut made);
+            let mut found = [Nearest::new(0.0); BATCH];
+            self.batch::<_, ANY>(own, &mut found[..own.len()], &mut counters);
         }
         counters
+    }
+}
+
+/// `count` rays of a set from `first` on; those of an image are put into `made`.
+fn slice<'a>(rays: &'a RaySet, first: usize, count: usize, made: &'a mut Vec<Ray>) -> &'a [Ray] {
+    match rays {
+        RaySet::List(list) => &list[first..first + count],
+        RaySet::Raster(_) => {
+            made.clear();
+            made.extend((first..first + count).map(|i| rays.ray(i)));
+            made
+        }
     }
 }

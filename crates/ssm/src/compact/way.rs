@@ -1,0 +1,177 @@
+//! The part of a ray inside a grid, in the grid's finest cells: what [`Grid::clip`] gives, with fewer
+//! divisions, and prepared for walking.
+
+use accel::Ray;
+use accel::grid::{Grid, MARGIN};
+use accel::objects::T_SLACK;
+
+/// The way is mapped into the lattice of cells shrunk by this on each side: its points never
+/// lie on the outer planes, so the walk needs no test for the last slice. Small
+/// against the grid's own margin, which makes up for it.
+const INSET: f64 = 1.0 / (1 << 20) as f64;
+
+/// A component below which a way counts as parallel to the slices: it moves less than the grid's
+/// margin on its whole length.
+const PARALLEL: f64 = 1.0 / (1 << 23) as f64;
+
+/// Ray and box count as meeting if they miss by so little, relatively: more than the
+/// rounding of a product with a reciprocal.
+const TOUCH: f64 = 1e-14;
+
+/// Maps a scene's coordinates to the cells of a lattice.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    low: [f64; 3],
+    high: [f64; 3],
+    /// Cells for each unit of length, or 0 for an axis without extent.
+    scale: [f64; 3],
+    /// The place of `low`, in cells.
+    first: [f64; 3],
+    resolution: [u32; 3],
+}
+
+/// The points `start + s·delta` with s from 0 to 1, in cells, and where they meet the planes
+/// between slices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    start: [f32; 3],
+    delta: [f32; 3],
+    /// Plane p of an axis is met at s = p·scale + offset.
+    scale: [f32; 3],
+    offset: [f32; 3],
+    /// 1, or −1 in two's complement.
+    pub step: [u32; 3],
+    forward: [u32; 3],
+    t_start: f64,
+    /// One over the span of t, infinite if there is none.
+    inverse_span: f64,
+}
+
+impl Frame {
+    pub fn new(lattice: &Grid) -> Self {
+        let bounds = lattice.bounds();
+        let [low, high] = [bounds.min, bounds.max].map(|v| v.to_array().map(f64::from));
+        let resolution = lattice.resolution();
+        let inner = resolution.map(|n| f64::from(n) * (1.0 - 2.0 * INSET));
+        let of = |a: usize| if high[a] > low[a] { inner[a] / (high[a] - low[a]) } else { 0.0 };
+        let first = |a: usize| f64::from(resolution[a]) * if high[a] > low[a] { INSET } else { 0.5 };
+        Self { low, high, scale: [of(0), of(1), of(2)], first: [first(0), first(1), first(2)], resolution }
+    }
+
+    /// The part of a ray inside the grid and its own range of t, or `None` where there is none.
+    #[inline(always)]
+    pub fn clip(&self, ray: &Ray) -> Option<Way> {
+        let origin = ray.origin.to_array().map(f64::from);
+        let direction = ray.direction.to_array().map(f64::from);
+        let mut t_start = f64::from(ray.t_min);
+        let mut t_end = f64::from(ray.t_max);
+        let mut inverse = [0.0; 3];
+        for a in 0..3 {
+            let (low, high) = (self.low[a] - origin[a], self.high[a] - origin[a]);
+            if direction[a] == 0.0 {
+                if low > 0.0 || high < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            inverse[a] = 1.0 / direction[a];
+            let (p, q) = (low * inverse[a], high * inverse[a]);
+            t_start = t_start.max(p.min(q));
+            t_end = t_end.min(p.max(q));
+        }
+        // The law of objects lets a hit lie a little outside of its box's range of t.
+        let slack = (T_SLACK + TOUCH) * t_start.abs().max(t_end.abs());
+        if t_start > t_end + slack {
+            return None;
+        }
+        let span = (t_end - t_start).max(0.0);
+        let inverse_span = 1.0 / span;
+        let mut way = Way {
+            start: [0.0; 3],
+            delta: [0.0; 3],
+            scale: [0.0; 3],
+            offset: [f32::INFINITY; 3],
+            step: [1; 3],
+            forward: [1; 3],
+            t_start,
+            inverse_span,
+        };
+        for a in 0..3 {
+            let n = f64::from(self.resolution[a]);
+            let place = |t: f64| {
+                let cell = (origin[a] + t * direction[a] - self.low[a]) * self.scale[a] + self.first[a];
+                cell.clamp(n * INSET, n * (1.0 - INSET))
+            };
+            let start = place(t_start);
+            let delta = place(t_start + span) - start;
+            (way.start[a], way.delta[a]) = (start as f32, delta as f32);
+            let parallel = delta.abs() < n * PARALLEL;
+            let per_cell = 1.0 / delta;
+            way.scale[a] = if parallel { 0.0 } else { per_cell as f32 };
+            way.offset[a] = if parallel { f32::INFINITY } else { (-start * per_cell) as f32 };
+            way.step[a] = if delta < 0.0 { u32::MAX } else { 1 };
+            way.forward[a] = u32::from(delta >= 0.0);
+        }
+        Some(way)
+    }
+}
+
+impl Way {
+    /// A way of a ray that does not meet the grid.
+    pub const NOWHERE: Self = Self {
+        start: [0.0; 3],
+        delta: [0.0; 3],
+        scale: [0.0; 3],
+        offset: [f32::INFINITY; 3],
+        step: [1; 3],
+        forward: [1; 3],
+        t_start: 0.0,
+        inverse_span: 0.0,
+    };
+
+    /// An upper bound of the place s up to which objects must be looked at, when a hit at
+    /// `t` is known: what begins behind it can't come before that hit.
+    #[inline(always)]
+    pub fn limit(&self, t: f32) -> f32 {
+        let t = f64::from(t);
+        let slack = 2.0 * T_SLACK * t.abs();
+        let s = (t - self.t_start + slack) * self.inverse_span;
+        // A way of no length: all of it.
+        if s.is_finite() { (s as f32) * (1.0 + 4.0 * f32::EPSILON) + 4.0 * MARGIN as f32 } else { 1.0 }
+    }
+
+    /// Where the way leaves slices of 2^shift cells.
+    #[inline(always)]
+    pub fn planes(&self, slice: [u32; 3], shift: u32) -> [f32; 3] {
+        let plane = |a: usize| {
+            // As signed numbers, which convert in one instruction.
+            let plane = (slice[a].wrapping_add(self.forward[a]) << shift).cast_signed();
+            plane as f32 * self.scale[a] + self.offset[a]
+        };
+        [plane(0), plane(1), plane(2)]
+    }
+
+    /// The cell at s.
+    #[inline(always)]
+    pub fn cell(&self, s: f32) -> [u32; 3] {
+        let place = |a: usize| (self.start[a] + s * self.delta[a]) as i32;
+        [place(0), place(1), place(2)].map(|place| place.max(0).cast_unsigned())
+    }
+
+    /// The slices at s of 2^shift cells that lie in `outer`, four times as thick.
+    #[inline(always)]
+    pub fn cell_within(&self, s: f32, shift: u32, outer: [u32; 3]) -> [u32; 3] {
+        let cell = self.cell(s);
+        let inner = |a: usize| (cell[a] >> shift).clamp(outer[a] << 2, (outer[a] << 2) + 3);
+        [inner(0), inner(1), inner(2)]
+    }
+}
+
+/// The slices beyond the planes met first, and where those are met. Planes met together are passed
+/// together: what lies in the cells between is registered on both sides, being within the grid's margin.
+#[inline(always)]
+pub(super) fn advance(way: &Way, slice: [u32; 3], planes: [f32; 3]) -> ([u32; 3], f32) {
+    let exit = planes[0].min(planes[1]).min(planes[2]);
+    let next = |a: usize| slice[a].wrapping_add(if planes[a] <= exit { way.step[a] } else { 0 });
+    ([next(0), next(1), next(2)], exit)
+}
