@@ -8,6 +8,7 @@ use accel::baseline::{Brute, MinMax, Sphere};
 use adapter_embree::{Denormals, EmbreeBuilder, Quality, Variant};
 use adapter_obvhs::{ObvhsBuilder, Preset, Variant as Tree};
 use bmssm::dense::BmssmDense;
+use bmssm::fast::Bmssm;
 use ssm::{Ssm, SsmList};
 
 fn own() -> String {
@@ -132,6 +133,16 @@ static ALL: &[Entry] = &[
             "kernel=watertight",
         ],
         make: set!(BmssmDense),
+    },
+    Entry {
+        id: "bmssm",
+        description: "bit maps over blocks of 64 objects: in image space for rasters, in space for lists",
+        source: "after Skala 1993",
+        version: own,
+        settings: &bmssm::fast::Settings::NAMES,
+        traits: Traits { by_need: true, ..Traits::OWN },
+        variants: &["stretch=256", "simd=portable", "kernel=watertight", "tile=2,depth_bits=0,apart=1"],
+        make: set!(Bmssm),
     },
     Entry {
         id: "ssm-list",
