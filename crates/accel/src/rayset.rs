@@ -65,17 +65,18 @@ impl Raster {
     /// [`Raster::ray`] in lanes, bit for bit, for pixel centres `x` = column + ½ and `y` = row + ½.
     #[inline(always)]
     pub fn packet<S: Simd>(&self, s: S, x: S::F, y: S::F) -> Packet<S> {
-        let at = |base: Vec3| {
-            [0, 1, 2].map(|axis| {
-                let right = s.mul(s.splat(self.right[axis]), x);
-                let down = s.mul(s.splat(self.down[axis]), y);
-                s.add(s.splat(base[axis]), s.add(right, down))
-            })
+        // Plain loops: a closure may be compiled without the instruction set.
+        let mut origin = splat3(s, self.origin);
+        let mut direction = splat3(s, self.forward);
+        let moved = match self.projection {
+            Projection::Parallel => &mut origin,
+            Projection::Perspective => &mut direction,
         };
-        let (origin, direction) = match self.projection {
-            Projection::Parallel => (at(self.origin), splat3(s, self.forward)),
-            Projection::Perspective => (splat3(s, self.origin), at(self.forward)),
-        };
+        for (axis, moved) in moved.iter_mut().enumerate() {
+            let right = s.mul(s.splat(self.right[axis]), x);
+            let down = s.mul(s.splat(self.down[axis]), y);
+            *moved = s.add(*moved, s.add(right, down));
+        }
         Packet { origin, direction, t_min: s.splat(0.0), t_max: s.splat(f32::INFINITY) }
     }
 

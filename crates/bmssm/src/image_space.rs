@@ -122,7 +122,9 @@ impl ImageSpace {
     pub fn pixels(&self, bounds: &Aabb) -> Pixels {
         let (spans, t) = match self.projection {
             Projection::Parallel => self.parallel(bounds),
-            Projection::Perspective => self.perspective(bounds),
+            Projection::Perspective => {
+                self.before_the_eye(bounds).unwrap_or_else(|| self.perspective(bounds))
+            }
         };
         let [cols, rows] = [0, 1].map(|axis| {
             let Span { low, high } = spans[axis];
@@ -162,6 +164,40 @@ impl ImageSpace {
             Span { low: least - error * ROUNDING, high: most + error * ROUNDING }
         });
         ([ranges[1], ranges[2]], ranges[0].low - self.t_moved)
+    }
+
+    /// [`ImageSpace::perspective`] for a box well before the eye: about the image of its centre, column or row c,
+    /// the form of c' - c is (scaled - c t) / t, whose numerator is small over the whole box.
+    fn before_the_eye(&self, bounds: &Aabb) -> Option<([Span; 2], f64)> {
+        let [low, high] = self.offsets(bounds);
+        let (mut center, mut half) = ([0.0; 3], [0.0; 3]);
+        for axis in 0..3 {
+            (center[axis], half[axis]) = ((low[axis] + high[axis]) * 0.5, (high[axis] - low[axis]) * 0.5);
+        }
+        let [depth, ref scaled @ ..] = self.forms;
+        let middle = dot(depth, center);
+        let error = (dot_abs(depth, center) + dot_abs(depth, half)) * ROUNDING;
+        let least = middle - dot_abs(depth, half) - error;
+        // NaN is not well before the eye.
+        if !(least > 0.9375 * middle && least > 16.0 * error) {
+            return None;
+        }
+        let (from_middle, from_least) = (1.0 / middle, 1.0 / least);
+        let mut spans = [Span::EMPTY; 2];
+        for (span, form) in spans.iter_mut().zip(scaled) {
+            let at = dot(*form, center) * from_middle;
+            let (mut numerator, mut reach, mut error) = (0.0, 0.0, 0.0);
+            for axis in 0..3 {
+                let shifted = form[axis] - at * depth[axis];
+                numerator += shifted * center[axis];
+                reach += shifted.abs() * half[axis];
+                let size = form[axis].abs() + (at * depth[axis]).abs();
+                error += size * (center[axis].abs() + half[axis]);
+            }
+            let reach = (numerator.abs() + reach + error * ROUNDING) * from_least * (1.0 + ROUNDING);
+            span.include(at - reach, at + reach);
+        }
+        Some((spans, least))
     }
 
     fn perspective(&self, bounds: &Aabb) -> ([Span; 2], f64) {
@@ -254,8 +290,10 @@ fn centres(span: Span, n: u32) -> Range<u32> {
         return 0..n;
     }
     let count = f64::from(n);
-    let first = (span.low - 0.5).ceil().clamp(0.0, count) as u32;
-    let end = ((span.high - 0.5).floor() + 1.0).clamp(0.0, count) as u32;
+    // Conversions of what is not negative round down; `ceil` and `floor` are calls on old machines.
+    let low = (span.low - 0.5).clamp(0.0, count);
+    let first = low as u32 + u32::from(low > f64::from(low as u32));
+    let end = (span.high + 0.5).clamp(0.0, count) as u32;
     if first < end { first..end } else { 0..0 }
 }
 

@@ -1,7 +1,7 @@
 //! T. Möller, B. Trumbore, *Fast, Minimum Storage Ray/Triangle Intersection*,
 //! Journal of Graphics Tools 2(1), 1997: no storage beyond the corners, one division.
 
-use super::{Kernel, KernelId, cross3, dot3, load_corners, splat_corners, store_rows, sub3};
+use super::{Kernel, KernelId, cross3, dot3, load_corners, splat_corners, splat_row3, store_rows, sub3};
 use crate::Ray;
 use crate::packet::{Common, Lanes, Packet, Vec3Lanes, splat3};
 use crate::simd::{Row, Simd};
@@ -74,13 +74,12 @@ impl Kernel for MollerTrumbore {
         t_max: S::F,
     ) -> Lanes<S> {
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
-        let at = |row: usize| [0, 1, 2].map(|axis| s.splat(rows[row + axis].0[lane]));
-        let (edge1, edge2) = (at(0), at(3));
+        let (edge1, edge2) = (splat_row3(s, &rows[0..3], lane), splat_row3(s, &rows[3..6], lane));
         let last = s.splat(rows[12].0[lane]);
         let (u, v, t) = match common {
             Common::Direction(direction) => {
-                let (p, reciprocal) = (at(6), last);
-                let a = [0, 1, 2].map(|axis| s.splat(group[axis].0[lane]));
+                let (p, reciprocal) = (splat_row3(s, &rows[6..9], lane), last);
+                let a = splat_row3(s, &group[0..3], lane);
                 let from_a = sub3(s, rays.origin, a);
                 let q = cross3(s, from_a, edge1);
                 let direction = splat3(s, *direction);
@@ -91,7 +90,7 @@ impl Kernel for MollerTrumbore {
                 )
             }
             Common::Origin(_) => {
-                let (from_a, q) = (at(6), at(9));
+                let (from_a, q) = (splat_row3(s, &rows[6..9], lane), splat_row3(s, &rows[9..12], lane));
                 let p = cross3(s, rays.direction, edge2);
                 let reciprocal = s.div(one, dot3(s, edge1, p));
                 (

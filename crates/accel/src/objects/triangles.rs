@@ -319,15 +319,11 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
             };
             let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
             let zero = s.splat(0.0);
-            let edges = |axis: usize| (edge1[axis], edge2[axis]);
-            let low = [0, 1, 2].map(|axis| {
-                let (e, f) = edges(axis);
-                s.sub(s.min(s.min(e, f), zero), half)
-            });
-            let high = [0, 1, 2].map(|axis| {
-                let (e, f) = edges(axis);
-                s.add(s.max(s.max(e, f), zero), half)
-            });
+            let (mut low, mut high) = (edge1, edge1);
+            for axis in 0..3 {
+                low[axis] = s.sub(s.min(s.min(edge1[axis], edge2[axis]), zero), half);
+                high[axis] = s.add(s.max(s.max(edge1[axis], edge2[axis]), zero), half);
+            }
             store_rows(s, a, &mut limits[0..3], at);
             store_rows(s, low, &mut limits[3..6], at);
             store_rows(s, high, &mut limits[6..9], at);
@@ -354,10 +350,10 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         }
         let mut plain = s.mask(u32::MAX);
         for axis in 0..3 {
-            let at = |row: usize| s.splat(limits[row + axis].0[lane]);
-            let from_a = s.sub(rays.rays.origin[axis], at(0));
+            let [a, low, high] = [limits[axis].0[lane], limits[3 + axis].0[lane], limits[6 + axis].0[lane]];
+            let from_a = s.sub(rays.rays.origin[axis], s.splat(a));
             let position = s.add(from_a, s.mul(rays.rays.direction[axis], lanes.t));
-            plain = s.and(plain, s.and(s.le(at(3), position), s.le(position, at(6))));
+            plain = s.and(plain, s.and(s.le(s.splat(low), position), s.le(position, s.splat(high))));
         }
         self.offer(s, slot, rays, plain, lanes, best);
     }

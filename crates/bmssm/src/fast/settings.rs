@@ -92,7 +92,11 @@ impl fmt::Display for Settings {
     }
 }
 
-fn number<T: FromStr + PartialOrd + fmt::Display + Copy>(value: &str, least: T, most: T) -> Result<T, String> {
+fn number<T: FromStr + PartialOrd + fmt::Display + Copy>(
+    value: &str,
+    least: T,
+    most: T,
+) -> Result<T, String> {
     match value.parse() {
         Ok(number) if (least..=most).contains(&number) => Ok(number),
         Ok(_) => Err(format!("'{value}' is not from {least} to {most}")),

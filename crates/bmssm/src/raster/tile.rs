@@ -17,9 +17,16 @@ const PATIENCE: u32 = 4;
 
 /// Rays and nearest hits of a tile's pixels, and values prepared for one block.
 struct Tile<S: Simd, M> {
+    /// Slices of rows.
+    rows: Range<u32>,
+    /// Slices of columns.
+    cols: Range<u32>,
+    /// The cells whose rays are made: those that some block shows candidates in.
+    open: Vec<bool>,
+    closed: usize,
     rays: Vec<M>,
     best: Vec<NearestPacket<S>>,
-    rows: Vec<Row>,
+    prepared: Vec<Row>,
 }
 
 /// One row of tiles.
@@ -79,15 +86,15 @@ impl<O: Objects, C: Count> Task for Band<'_, O, C> {
     #[inline(always)]
     fn run<S: Simd>(mut self, s: S) -> C {
         let maps = self.maps;
-        let prepared = <O::Blocks as Blocks>::PREPARED_ROWS * GROUPS;
-        let mut tile = Tile { rays: Vec::new(), best: Vec::new(), rows: vec![Row([0.0; ROW]); prepared] };
-        let rows = maps.slices(self.row, maps.raster.rows);
+        let mut tile = Tile::<S, <O::Blocks as Blocks>::Many<S>>::new(s, maps);
         let across = maps.raster.cols.div_ceil(THICKNESS).div_ceil(maps.settings.tile);
+        tile.rows = maps.slices(self.row, maps.raster.rows);
         for col in 0..across {
-            let cols = maps.slices(col, maps.raster.cols);
-            tile.begin(s, maps, &rows, &cols);
-            tile.trace(s, maps, (self.row, col), &rows, &cols, &mut self.count);
-            tile.end(s, maps, &rows, &cols, self.hits);
+            tile.cols = maps.slices(col, maps.raster.cols);
+            tile.open.fill(false);
+            tile.closed = tile.rows.len() * tile.cols.len();
+            tile.trace(s, maps, (self.row, col), &mut self.count);
+            tile.end(s, maps, self.hits);
         }
         self.count
     }
@@ -97,31 +104,50 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     /// Packets that serve the pixels of a cell.
     const PACKETS: usize = CELL / S::LANES;
 
-    /// Makes the rays. Lanes outside the image are switched off.
     #[inline(always)]
-    fn begin<O: Objects>(&mut self, s: S, maps: &RasterMaps<O>, rows: &Range<u32>, cols: &Range<u32>)
+    fn new<O: Objects>(s: S, maps: &RasterMaps<O>) -> Self
+    where
+        O::Blocks: Blocks<Many<S> = M>,
+    {
+        let cells = (maps.settings.tile * maps.settings.tile) as usize;
+        let any = maps.geometry.many(s, &maps.raster.packet(s, s.splat(0.5), s.splat(0.5)));
+        Self {
+            rows: 0..0,
+            cols: 0..0,
+            open: vec![false; cells],
+            closed: 0,
+            rays: vec![any; cells * Self::PACKETS],
+            best: vec![NearestPacket::new(s, s.splat(0.0)); cells * Self::PACKETS],
+            prepared: vec![Row([0.0; ROW]); <O::Blocks as Blocks>::PREPARED_ROWS * GROUPS],
+        }
+    }
+
+    /// Makes a cell's rays. Lanes outside the image are switched off.
+    #[inline(always)]
+    fn open<O: Objects>(&mut self, s: S, maps: &RasterMaps<O>, cell: usize)
     where
         O::Blocks: Blocks<Many<S> = M>,
     {
         let raster = &maps.raster;
-        self.rays.clear();
-        self.best.clear();
-        for row in rows.clone() {
-            for col in cols.clone() {
-                for packet in 0..Self::PACKETS {
-                    let (mut x, mut y, mut t) = ([0.0; ROW], [0.0; ROW], [f32::INFINITY; ROW]);
-                    for lane in 0..S::LANES {
-                        let (r, c) = pixel(row, col, packet * S::LANES + lane);
-                        (x[lane], y[lane]) = (c as f32 + 0.5, r as f32 + 0.5);
-                        if r >= raster.rows || c >= raster.cols {
-                            t[lane] = f32::NEG_INFINITY;
-                        }
-                    }
-                    self.rays.push(maps.geometry.many(s, &raster.packet(s, s.load(&x), s.load(&y))));
-                    self.best.push(NearestPacket::new(s, s.load(&t)));
+        let row = (self.rows.start + (cell / self.cols.len()) as u32) * THICKNESS;
+        let col = (self.cols.start + (cell % self.cols.len()) as u32) * THICKNESS;
+        let inside = row + THICKNESS <= raster.rows && col + THICKNESS <= raster.cols;
+        for packet in 0..Self::PACKETS {
+            let (mut x, mut y, mut t) = ([0.0; ROW], [0.0; ROW], [f32::INFINITY; ROW]);
+            for lane in 0..S::LANES {
+                let i = (packet * S::LANES + lane) as u32;
+                let (r, c) = (row + i / THICKNESS, col + i % THICKNESS);
+                (x[lane], y[lane]) = (c as f32 + 0.5, r as f32 + 0.5);
+                if !inside && (r >= raster.rows || c >= raster.cols) {
+                    t[lane] = f32::NEG_INFINITY;
                 }
             }
+            let at = cell * Self::PACKETS + packet;
+            self.rays[at] = maps.geometry.many(s, &raster.packet(s, s.load(&x), s.load(&y)));
+            self.best[at] = NearestPacket::new(s, s.load(&t));
         }
+        self.open[cell] = true;
+        self.closed -= 1;
     }
 
     #[inline(always)]
@@ -130,13 +156,12 @@ impl<S: Simd, M: Copy> Tile<S, M> {
         s: S,
         maps: &RasterMaps<O>,
         (row, col): (u32, u32),
-        rows: &Range<u32>,
-        cols: &Range<u32>,
         count: &mut C,
     ) where
         O::Blocks: Blocks<Many<S> = M>,
     {
         let common = maps.raster.common();
+        let (rows, cols) = (self.rows.clone(), self.cols.clone());
         let across = cols.len();
         let mut farthest = f32::INFINITY;
         let mut patience = PATIENCE;
@@ -170,6 +195,9 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                         let candidates = r & c;
                         if candidates != 0 {
                             count.cells(1);
+                            if !self.open[cell] {
+                                self.open(s, maps, cell);
+                            }
                             self.cell(s, maps, at, cell, candidates, &common, &mut prepared, count);
                         }
                     }
@@ -209,7 +237,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                     break;
                 }
                 let first = block * BLOCK + group * ROW;
-                let rows = &mut self.rows[group * each..(group + 1) * each];
+                let rows = &mut self.prepared[group * each..(group + 1) * each];
                 if *prepared >> group & 1 == 0 {
                     *prepared |= 1 << group;
                     maps.geometry.prepare(s, first, common, rows);
@@ -228,8 +256,11 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     /// The farthest of the pixels' nearest hits so far.
     #[inline(always)]
     fn farthest(&self, s: S) -> f32 {
+        if self.closed != 0 {
+            return f32::INFINITY;
+        }
         let mut far = s.splat(f32::NEG_INFINITY);
-        for best in &self.best {
+        for best in &self.best[..self.rows.len() * self.cols.len() * Self::PACKETS] {
             far = s.max(far, best.t);
         }
         let mut lanes = [f32::NEG_INFINITY; ROW];
@@ -239,28 +270,38 @@ impl<S: Simd, M: Copy> Tile<S, M> {
 
     /// Writes the hits to a row of tiles.
     #[inline(always)]
-    fn end<O: Objects>(
-        &self,
-        s: S,
-        maps: &RasterMaps<O>,
-        rows: &Range<u32>,
-        cols: &Range<u32>,
-        hits: &mut [Option<Hit>],
-    ) {
-        let (height, width) = (maps.raster.rows, maps.raster.cols);
-        let mut cells = self.best.chunks_exact(Self::PACKETS);
-        let mut nearest = [Nearest::new(0.0); CELL];
-        for row in rows.clone() {
-            for col in cols.clone() {
-                let Some(cell) = cells.next() else { return };
-                for (packet, nearest) in cell.iter().zip(nearest.chunks_exact_mut(S::LANES)) {
-                    packet.store(s, nearest);
+    fn end<O: Objects>(&self, s: S, maps: &RasterMaps<O>, hits: &mut [Option<Hit>]) {
+        let width = maps.raster.cols as usize;
+        let left = (self.cols.start * THICKNESS) as usize;
+        let right = width.min((self.cols.end * THICKNESS) as usize);
+        for (row, hits) in hits.chunks_mut(THICKNESS as usize * width).enumerate() {
+            if self.closed == self.rows.len() * self.cols.len() {
+                hits.chunks_exact_mut(width).for_each(|line| line[left..right].fill(None));
+                continue;
+            }
+            for col in 0..self.cols.len() {
+                let cell = row * self.cols.len() + col;
+                let from = left + col * THICKNESS as usize;
+                let to = right.min(from + THICKNESS as usize);
+                if !self.open[cell] {
+                    hits.chunks_exact_mut(width).for_each(|line| line[from..to].fill(None));
+                    continue;
                 }
-                for (i, nearest) in nearest.iter().enumerate() {
-                    let (r, c) = pixel(row, col, i);
-                    if r < height && c < width {
-                        let at = (r - rows.start * THICKNESS) as usize * width as usize + c as usize;
-                        hits[at] = nearest.hit();
+                let mut found = Found::default();
+                for packet in 0..Self::PACKETS {
+                    let best = &self.best[cell * Self::PACKETS + packet];
+                    let first = packet * S::LANES;
+                    s.store(best.t, &mut found.t[first..]);
+                    s.store(best.u, &mut found.u[first..]);
+                    s.store(best.v, &mut found.v[first..]);
+                    s.store_u(best.object, &mut found.object[first..]);
+                }
+                for (y, line) in hits.chunks_exact_mut(width).enumerate() {
+                    for (x, hit) in line[from..to].iter_mut().enumerate() {
+                        let i = y * THICKNESS as usize + x;
+                        let (t, object) = (found.t[i], found.object[i]);
+                        let seen = Hit { t, object, u: found.u[i], v: found.v[i] };
+                        *hit = (object != Nearest::NONE).then_some(seen);
                     }
                 }
             }
@@ -268,9 +309,11 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     }
 }
 
-/// Row and column of a cell's pixel number `i`.
-#[inline(always)]
-fn pixel(row: u32, col: u32, i: usize) -> (u32, u32) {
-    let i = i as u32;
-    (row * THICKNESS + i / THICKNESS, col * THICKNESS + i % THICKNESS)
+/// The nearest hits of a cell.
+#[derive(Default)]
+struct Found {
+    t: [f32; CELL],
+    object: [u32; CELL],
+    u: [f32; CELL],
+    v: [f32; CELL],
 }
