@@ -1,1 +1,48 @@
-//! Criterion benches over the registry of `rayscale`.
+//! Criterion benches over the registry of `rayscale`: what they share.
+
+use accel::{Accel, Need, RaySet, Scene};
+use rayscale::rays::{RaysId, RaysSpec, generate};
+use rayscale::registry::{self, Choice};
+
+/// The small fixed set of scenes.
+pub const SCENES: [&str; 2] = ["small-10k", "bumps-20k"];
+
+/// Structures whose time does not grow with the number of objects.
+pub fn structures() -> Vec<Choice> {
+    let all = registry::defaults().into_iter().map(|spec| registry::choose(&spec));
+    all.filter_map(Result::ok).filter(|choice| !choice.entry.traits.linear).collect()
+}
+
+/// A scene of the suite.
+///
+/// # Panics
+/// If there is no such scene.
+pub fn scene(id: &str) -> Scene {
+    let spec = id.parse().expect("a scene's name");
+    rayscale::scene::load(&spec).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A ray set of the scene with `size` × `size` rays.
+///
+/// # Panics
+/// If the scene has no such rays.
+pub fn rays(scene: &Scene, id: RaysId, size: u32) -> RaySet {
+    let grid = registry::parse("ssm").expect("an entry");
+    let tracer = grid.builder.build(scene, &Need::GENERAL).unwrap_or_else(|error| panic!("{error}"));
+    let spec = RaysSpec { id, rows: size, cols: size, seed: 1 };
+    generate(scene, &spec, tracer.as_ref()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Built for the rays, or `None` where the structure doesn't serve them.
+pub fn build<'s>(choice: &Choice, scene: &'s Scene, rays: &RaySet) -> Option<Box<dyn Accel + 's>> {
+    choice.builder.build(scene, &Need::of(rays)).ok()
+}
+
+/// Does `work` on one thread.
+///
+/// # Panics
+/// If the system gives no thread.
+pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    pool.install(work)
+}

@@ -11,15 +11,17 @@ pub const RESOLUTIONS: [u32; 5] = [8, 16, 32, 64, 128];
 /// A row for each resolution: the paper's formulas for the references that a grid registers, its
 /// layouts as built, and the compact layouts as built.
 pub fn memory_rows(scene: &Scene, resolutions: &[u32]) -> Vec<MemoryRow> {
-    resolutions.iter().map(|n| row(scene, *n)).collect()
+    // It has no N: its plan chooses, and is the same at all.
+    let sparse = footprint(scene, "bmssm");
+    resolutions.iter().map(|n| row(scene, *n, &sparse)).collect()
 }
 
-fn row(scene: &Scene, n: u32) -> MemoryRow {
+fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>) -> MemoryRow {
     let objects = scene.geometry.len() as u64;
     let cells = f64::from(n).powi(3);
-    let built = |id: &str| footprint(scene, id, n);
+    let built = |id: &str| footprint(scene, &format!("{id}:resolution={n}"));
     let (list, dense) = (built("ssm-list"), built("bmssm-dense"));
-    let (compact, sparse) = (built("ssm"), built("bmssm"));
+    let compact = built("ssm");
     // The compact grid may share a reference between objects, so the lists say how many there are.
     let bytes_each = if objects <= 1 << 16 { 2.0 } else { 4.0 };
     let references = list.as_ref().map_or(0.0, |list| part(list, "ids") / bytes_each);
@@ -29,13 +31,13 @@ fn row(scene: &Scene, n: u32) -> MemoryRow {
         _ => None,
     };
     row.paper_layouts = layout(&list, &dense);
-    row.compact_layouts = layout(&compact, &sparse);
-    row.error = [list, dense, compact, sparse].into_iter().find_map(Result::err);
+    row.compact_layouts = layout(&compact, sparse);
+    row.error = [&list, &dense, &compact, sparse].into_iter().find_map(|built| built.as_ref().err().cloned());
     row
 }
 
-fn footprint(scene: &Scene, id: &str, n: u32) -> Result<Footprint, String> {
-    let choice = registry::parse(&format!("{id}:resolution={n}")).map_err(|error| error.to_string())?;
+fn footprint(scene: &Scene, spec: &str) -> Result<Footprint, String> {
+    let choice = registry::parse(spec).map_err(|error| error.to_string())?;
     let built = guard("the build", || choice.builder.build(scene, &Need::GENERAL))?;
     built.map(|accel| accel.footprint()).map_err(|error| error.to_string())
 }

@@ -46,7 +46,7 @@ gets wrong is not counted against them.";
 
 const NU_MEM: &str = "ν_mem at N slices per axis (Skala 1993, §5), above 1 where bit maps take less: by the paper's \
 formulas, for the paper's layouts as built (`ssm-list`, `bmssm-dense`), and for the compact layouts as built \
-(`ssm`, `bmssm`). Two-byte ids name at most 65,536 objects.";
+(`ssm` at N; `bmssm`, whose plan has no N, as it is). Two-byte ids name at most 65,536 objects.";
 
 fn run(out: &mut String, record: &Record) {
     let m = &record.machine;

@@ -1,0 +1,36 @@
+//! Time to build, in objects per second: for any rays, or for one raster where a structure serves
+//! nothing else.
+
+use accel::{Need, RaySet};
+use benches::{SCENES, on_one_thread, rays, scene, structures};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use rayscale::rays::RaysId;
+use std::hint::black_box;
+use std::time::Duration;
+
+fn build(c: &mut Criterion) {
+    for id in SCENES {
+        let scene = scene(id);
+        let RaySet::Raster(raster) = rays(&scene, RaysId::Parallel, 128) else { unreachable!("an image") };
+        let mut group = c.benchmark_group(format!("build/{id}"));
+        group.throughput(Throughput::Elements(scene.geometry.len() as u64));
+        group
+            .sample_size(10)
+            .warm_up_time(Duration::from_millis(300))
+            .measurement_time(Duration::from_secs(1));
+        for choice in structures() {
+            let need = if choice.entry.traits.lists { Need::GENERAL } else { Need::raster(raster) };
+            if choice.builder.build(&scene, &need).is_ok() {
+                group.bench_function(choice.spec.to_string(), |b| {
+                    on_one_thread(|| {
+                        b.iter_with_large_drop(|| black_box(choice.builder.build(&scene, &need).ok()))
+                    });
+                });
+            }
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, build);
+criterion_main!(benches);
