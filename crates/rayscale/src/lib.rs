@@ -13,6 +13,7 @@ pub mod measure;
 pub mod near;
 pub mod output;
 pub mod palette;
+pub mod paper;
 pub mod picture;
 pub mod rays;
 pub mod rayset;

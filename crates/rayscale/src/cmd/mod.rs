@@ -13,6 +13,7 @@ mod console;
 mod diff;
 mod error;
 mod measure;
+mod paper;
 mod rank;
 mod render;
 mod report;
@@ -68,6 +69,7 @@ enum Command {
     Trace(trace::Trace),
     Scenes(scenes::Scenes),
     Structures(structures::Structures),
+    Paper(paper::PaperVerb),
     Completions(completions::Completions),
 }
 
@@ -86,6 +88,7 @@ impl Command {
             Self::Scenes(verb) => verb,
             Self::Structures(verb) => verb,
             Self::Completions(verb) => verb,
+            Self::Paper(verb) => verb,
         }
     }
 }
