@@ -84,9 +84,9 @@ fn extreme_scenes() {
 }
 
 #[test]
-fn ids_of_four_bytes() {
+fn ids_of_four_bytes_and_lists_that_are_sorted() {
     let scene = cloud(70_000, 0.02);
-    check(&scene, 300, Settings::new(Resolution::Density(1.0)));
+    check(&scene, 700, Settings::new(Resolution::Density(1.0)));
 }
 
 proptest! {

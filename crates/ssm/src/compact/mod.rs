@@ -3,6 +3,7 @@
 mod divide;
 mod field;
 mod order;
+mod sort;
 mod trace;
 mod way;
 
@@ -33,7 +34,7 @@ pub struct Ssm {
 
 impl Default for Ssm {
     fn default() -> Self {
-        Self { settings: Settings::new(Resolution::Density(1.0)), divide: Some(6.0) }
+        Self { settings: Settings::new(Resolution::Density(0.4)), divide: Some(12.0) }
     }
 }
 
@@ -111,8 +112,13 @@ struct Built<O: Objects> {
     /// Whether the first group is in no cell and meets every ray.
     apart: bool,
     blocks: O::Blocks,
+    /// Whether lists of rays are put in order before they are traced.
+    sort: bool,
     _objects: O,
 }
+
+/// Bytes that stay in a core's own caches: a list of rays into more is sorted.
+const CACHED: usize = 1 << 21;
 
 /// Bytes of a brick: a position for each cell, and bits.
 const BRICK_BYTES: u128 = 4 * BRICK as u128 + 8;
@@ -148,7 +154,10 @@ impl<O: Objects> Built<O> {
             cells = divide::divide(cells, &mut field, &objects, &slots, gain, limit)?;
         }
         let blocks = objects.blocks(&slots);
-        Ok(Self { settings: *settings, grid, field, cells, apart, blocks, _objects: objects })
+        let mut built =
+            Self { settings: *settings, grid, field, cells, apart, blocks, sort: false, _objects: objects };
+        built.sort = built.footprint().total() > CACHED;
+        Ok(built)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::field::Visit;
 use super::order::GROUP;
 use super::way::Way;
-use super::{Built, Cells};
+use super::{Built, Cells, sort};
 use accel::objects::{BLOCK, Blocks};
 use accel::simd::{Simd, Task};
 use accel::{Count, Counters, Nearest, NoCount, Objects, Ray, RaySet};
@@ -11,6 +11,9 @@ use rayon::prelude::*;
 
 /// Rays for which the instruction set is chosen once.
 const BATCH: usize = 512;
+
+/// Rays that are put in order together.
+const SORTED: usize = 1 << 16;
 
 /// The groups that a ray has met lately: a place for each of a number of groups in a row, which
 /// neighbours in space mostly are.
@@ -141,16 +144,37 @@ impl<O: Objects> Built<O> {
         of: impl Fn(&Nearest) -> T + Sync,
     ) {
         assert_eq!(rays.len(), out.len(), "one place for each ray");
-        let work = |(batch, out): (usize, &mut [T])| {
-            let mut made = Vec::new();
-            let own = slice(rays, batch * BATCH, out.len(), &mut made);
-            let mut found = [Nearest::new(0.0); BATCH];
-            self.batch::<_, ANY>(own, &mut found[..out.len()], &mut NoCount);
-            for (out, nearest) in out.iter_mut().zip(&found) {
-                *out = of(nearest);
+        match rays {
+            RaySet::List(list) if self.sort && list.len() >= BATCH => {
+                out.par_chunks_mut(SORTED).zip(list.par_chunks(SORTED)).for_each(|(out, rays)| {
+                    self.in_order::<ANY, _>(rays, out, &of);
+                });
             }
-        };
-        out.par_chunks_mut(BATCH).enumerate().with_min_len(8).for_each(work);
+            _ => out.par_chunks_mut(BATCH).enumerate().with_min_len(8).for_each(|(batch, out)| {
+                let mut made = Vec::new();
+                let own = slice(rays, batch * BATCH, out.len(), &mut made);
+                let mut found = [Nearest::new(0.0); BATCH];
+                self.batch::<_, ANY>(own, &mut found[..out.len()], &mut NoCount);
+                for (out, nearest) in out.iter_mut().zip(&found) {
+                    *out = of(nearest);
+                }
+            }),
+        }
+    }
+
+    /// Rays in an order that suits the caches; what they find goes where they stood.
+    fn in_order<const ANY: bool, T>(&self, rays: &[Ray], out: &mut [T], of: &impl Fn(&Nearest) -> T) {
+        let order = sort::coherent(rays, self.grid.bounds());
+        let mut own = Vec::with_capacity(BATCH);
+        let mut found = [Nearest::new(0.0); BATCH];
+        for numbers in order.chunks(BATCH) {
+            own.clear();
+            own.extend(numbers.iter().map(|number| rays[*number as usize]));
+            self.batch::<_, ANY>(&own, &mut found[..own.len()], &mut NoCount);
+            for (number, nearest) in numbers.iter().zip(&found) {
+                out[*number as usize] = of(nearest);
+            }
+        }
     }
 
     /// What tracing a set costs.
