@@ -6,6 +6,7 @@ use crate::kernel::{Corners, Kernel, load_corners, store_rows, sub3};
 use crate::packet::{Common, Lanes, NearestPacket, Packet, Vec3Lanes};
 use crate::simd::{ROW, Row, Simd};
 use crate::{Aabb, Mesh, Nearest, Ray, Surface};
+use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 
@@ -87,11 +88,12 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
         let mut rows = vec![Row([f32::NAN; ROW]); groups * K::ROWS];
-        for (group, ids) in rows.chunks_exact_mut(K::ROWS).zip(order.chunks(ROW)) {
+        let pack = |(group, ids): (&mut [Row], &[u32])| {
             for (lane, id) in ids.iter().enumerate().filter(|(_, id)| **id != EMPTY_SLOT) {
                 K::pack(&self.frame.corners(&self.corners(*id)), group, lane);
             }
-        }
+        };
+        rows.par_chunks_exact_mut(K::ROWS).zip(order.par_chunks(ROW)).with_min_len(512).for_each(pack);
         TriangleBlocks { triangles: *self, rows, order: order.to_vec() }
     }
 }

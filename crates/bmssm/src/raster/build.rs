@@ -15,47 +15,43 @@ const CHUNK: usize = 64;
 struct Part {
     blocks: Vec<Block>,
     words: Vec<u64>,
+    ids: Vec<u32>,
 }
 
 impl<O: Objects> RasterMaps<O> {
     /// Builds the maps of `raster` in the current rayon pool.
     pub fn build(objects: O, raster: &Raster, settings: Settings) -> Self {
         let shown = shown(objects, raster);
-        let mut order = sorted(&shown, raster, &settings);
-        let depth_of = |i: u32| shown[i as usize].depth;
-        // Nearest first within each block, then blocks by their nearest.
-        order.par_chunks_mut(BLOCK).with_min_len(CHUNK).for_each(|block| {
-            block.sort_unstable_by_key(|&i| (depth_of(i).to_bits(), i));
-        });
-        let mut nearest_first: Vec<u32> = (0..order.len().div_ceil(BLOCK) as u32).collect();
-        // Depths are not negative, so their bits are ordered as they are.
-        nearest_first.sort_by_key(|&b| depth_of(order[b as usize * BLOCK]).to_bits());
-        let slots_of = |b: u32| &order[b as usize * BLOCK..order.len().min((b as usize + 1) * BLOCK)];
-
-        let parts: Vec<Part> = nearest_first
-            .par_chunks(CHUNK)
-            .map(|blocks| {
+        let order = sorted(&shown, raster, &settings);
+        let parts: Vec<Part> = order
+            .par_chunks(CHUNK * BLOCK)
+            .map(|slots| {
                 let mut part = Part::default();
-                for &b in blocks {
-                    part.push(slots_of(b).iter().map(|&i| &shown[i as usize]));
+                for block in slots.chunks(BLOCK) {
+                    part.push(block.iter().map(|&i| shown[i as usize]));
                 }
                 part
             })
             .collect();
-        let mut ids = vec![EMPTY_SLOT; nearest_first.len() * BLOCK];
-        for (ids, &b) in ids.chunks_exact_mut(BLOCK).zip(&nearest_first) {
-            for (id, &i) in ids.iter_mut().zip(slots_of(b)) {
-                *id = shown[i as usize].id;
-            }
-        }
         drop(order);
-        let mut blocks = Vec::with_capacity(nearest_first.len());
-        let mut words = Vec::with_capacity(parts.iter().map(|p| p.words.len()).sum());
-        for part in parts {
+        let (mut unordered, mut words) = (Vec::new(), Vec::new());
+        words.reserve_exact(parts.iter().map(|p| p.words.len()).sum());
+        for part in &parts {
             let first = words.len() as u32;
             words.extend_from_slice(&part.words);
-            blocks.extend(part.blocks.into_iter().map(|b| Block { words: b.words + first, ..b }));
+            unordered.extend(part.blocks.iter().map(|b| Block { words: b.words + first, ..*b }));
         }
+        // Depths are not negative, so their bits are ordered as they are. Words stay in the order of places.
+        let mut nearest_first: Vec<(u32, u32)> =
+            unordered.iter().zip(0..).map(|(block, i)| (block.depth[0].to_bits(), i)).collect();
+        nearest_first.sort_unstable();
+        let blocks: Vec<Block> = nearest_first.iter().map(|&(_, i)| unordered[i as usize]).collect();
+        let mut ids = Vec::with_capacity(blocks.len() * BLOCK);
+        for &(_, i) in &nearest_first {
+            let (part, block) = (i as usize / CHUNK, i as usize % CHUNK);
+            ids.extend_from_slice(&parts[part].ids[block * BLOCK..][..BLOCK]);
+        }
+        drop(parts);
         let count = shown.len();
         drop(shown);
         let tiles = |pixels: u32| pixels.div_ceil(THICKNESS).div_ceil(settings.tile);
@@ -66,32 +62,39 @@ impl<O: Objects> RasterMaps<O> {
 }
 
 impl Part {
-    /// Appends a block of objects that come nearest first.
-    fn push<'a>(&mut self, objects: impl Iterator<Item = &'a Shown> + Clone) {
-        let range = |of: fn(&Shown) -> [u32; 2]| {
-            let ends = |(low, end): (u32, u32), [a, b]: [u32; 2]| (low.min(a), end.max(b + 1));
-            objects.clone().map(of).fold((u32::MAX, 0), ends)
-        };
-        let (row, row_end) = range(|s| s.rows);
-        let (col, col_end) = range(|s| s.cols);
+    /// Appends a block.
+    fn push(&mut self, objects: impl Iterator<Item = Shown>) {
+        let (mut slots, mut count) = ([Shown::default(); BLOCK], 0);
+        let mut keys = [u64::MAX; BLOCK];
+        let (mut row, mut row_end, mut col, mut col_end) = (u32::MAX, 0, u32::MAX, 0);
+        for ((slot, key), object) in slots.iter_mut().zip(&mut keys).zip(objects) {
+            *slot = object;
+            *key = u64::from(object.depth.to_bits()) << 32 | count as u64;
+            (row, row_end) = (row.min(object.rows[0]), row_end.max(object.rows[1] + 1));
+            (col, col_end) = (col.min(object.cols[0]), col_end.max(object.cols[1] + 1));
+            count += 1;
+        }
+        // Nearest first.
+        keys[..count].sort_unstable();
         let mut depth = [f32::INFINITY; GROUPS];
-        for (slot, object) in objects.clone().enumerate() {
-            let group = &mut depth[slot / GROUP];
-            *group = group.min(object.depth);
+        for (depth, key) in depth.iter_mut().zip(keys[..count].iter().step_by(GROUP)) {
+            *depth = f32::from_bits((key >> 32) as u32);
         }
         let first = self.words.len();
         let block = Block { words: first as u32, row, rows: row_end - row, col, cols: col_end - col, depth };
         self.words.resize(first + block.len(), 0);
         let (r, s) = self.words[first..].split_at_mut(block.rows as usize);
-        for (slot, object) in objects.enumerate() {
-            let fill = |words: &mut [u64], [a, b]: [u32; 2], from: u32| {
-                for word in &mut words[(a - from) as usize..=(b - from) as usize] {
-                    *word |= 1 << slot;
-                }
-            };
-            fill(r, object.rows, row);
-            fill(s, object.cols, col);
+        for (slot, key) in keys[..count].iter().enumerate() {
+            let object = &slots[*key as u32 as usize];
+            for word in &mut r[(object.rows[0] - row) as usize..=(object.rows[1] - row) as usize] {
+                *word |= 1 << slot;
+            }
+            for word in &mut s[(object.cols[0] - col) as usize..=(object.cols[1] - col) as usize] {
+                *word |= 1 << slot;
+            }
+            self.ids.push(object.id);
         }
+        self.ids.resize(self.ids.len() + BLOCK - count, EMPTY_SLOT);
         self.blocks.push(block);
     }
 }

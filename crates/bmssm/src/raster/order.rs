@@ -73,11 +73,12 @@ pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> V
         Projection::Parallel => (depth - near) * unit,
         Projection::Perspective => (depth.max(1e-30) / near.max(1e-30)).ln() * unit,
     };
+    let apart = settings.apart;
     let last = ((1 << BITS) - 1) as f32;
     let code = |s: &Shown| {
         let middle = |[a, b]: [u32; 2]| (((a + b) as f32 * 0.5 * slice) as u32).min((1 << BITS) - 1);
         let size = (s.rows[1] - s.rows[0]).max(s.cols[1] - s.cols[0]) + 1;
-        let class = [1, 4, 16].into_iter().filter(|n| size > n * settings.apart).count() as u32;
+        let class = u32::from(size > apart) + u32::from(size > 4 * apart) + u32::from(size > 16 * apart);
         let z = deep(s.depth).clamp(0.0, last) as u32;
         class << (3 * BITS) | spread(middle(s.cols)) << 2 | spread(middle(s.rows)) << 1 | spread(z)
     };
