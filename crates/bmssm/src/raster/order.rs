@@ -64,14 +64,15 @@ pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> V
     let side = raster.rows.max(raster.cols).div_ceil(THICKNESS).max(1);
     // Code units: the image's longer side has 2^BITS of them, so a slice has `slice`.
     let slice = (1 << BITS) as f32 / side as f32;
-    let near = shown.iter().map(|s| s.depth).fold(f32::INFINITY, f32::min);
+    // Counted from the far end: what has no room in a code is next to the eye, and little.
+    let far = shown.iter().map(|s| s.depth).fold(0.0, f32::max);
     // A block is as deep as it is wide where a unit of depth is as long as a unit of the image: everywhere for
     // parallel projection, and by the logarithm for perspective.
     let pixel = raster.right.length().max(f32::MIN_POSITIVE) / raster.forward.length();
     let unit = slice / THICKNESS as f32 / pixel / (1 << settings.depth_bits) as f32;
     let deep = |depth: f32| match raster.projection {
-        Projection::Parallel => (depth - near) * unit,
-        Projection::Perspective => (depth.max(1e-30) / near.max(1e-30)).ln() * unit,
+        Projection::Parallel => (far - depth) * unit,
+        Projection::Perspective => (far / depth).ln() * unit,
     };
     let apart = settings.apart;
     let last = ((1 << BITS) - 1) as f32;
@@ -79,7 +80,7 @@ pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> V
         let middle = |[a, b]: [u32; 2]| (((a + b) as f32 * 0.5 * slice) as u32).min((1 << BITS) - 1);
         let size = (s.rows[1] - s.rows[0]).max(s.cols[1] - s.cols[0]) + 1;
         let class = u32::from(size > apart) + u32::from(size > 4 * apart) + u32::from(size > 16 * apart);
-        let z = deep(s.depth).clamp(0.0, last) as u32;
+        let z = (last - deep(s.depth)).clamp(0.0, last) as u32;
         class << (3 * BITS) | spread(middle(s.cols)) << 2 | spread(middle(s.rows)) << 1 | spread(z)
     };
     let keyed: Vec<u64> = (0..shown.len())
