@@ -3,13 +3,14 @@
 use super::measure::{Effort, failures, measure};
 use super::selection::Selection;
 use super::{Console, Error, Outcome, Verb, check, report};
+use crate::report::pictures;
 use clap::Args;
 use std::path::PathBuf;
 
 /// Check and measure every structure on the default set, and write a report
 ///
-/// About five minutes on two cores. Everything goes to the folder named by --out: record.json, report.md and
-/// cells.csv.
+/// About five minutes on two cores. Everything goes to the folder named by --out: record.json, report.html,
+/// report.md and cells.csv.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale compare
@@ -49,7 +50,7 @@ impl Verb for Compare {
         let path = self.out.join("record.json");
         let record = measure(console, &selection, &effort, &path)?;
         let mut written = vec![path];
-        written.extend(report::write(&record, &self.out)?);
+        written.extend(report::write(&record, &pictures(&record), &self.out)?);
         let failed = failures(&record);
         failed.iter().for_each(|line| console.note(line));
         let names: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();

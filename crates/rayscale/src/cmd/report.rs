@@ -4,7 +4,7 @@ use super::{Console, Error, Outcome, Verb};
 use crate::output::write_whole;
 use crate::record::{self, Record};
 use crate::report::html::{Pictures, html};
-use crate::report::{markdown, splice, summary, write_csv};
+use crate::report::{markdown, pictures, splice, summary, write_csv};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale report record.json
-  rayscale report record.json --out reports/today
+  rayscale report record.json --pictures --out reports/today
   rayscale report record.json --splice README.md")]
 pub struct Report {
     /// The record
@@ -24,6 +24,9 @@ pub struct Report {
     /// Instead of report files, write a summary between the markers of this text
     #[arg(long, value_name = "FILE")]
     splice: Option<PathBuf>,
+    /// Put pictures of the scenes into report.html, where they are on this machine
+    #[arg(long, conflicts_with = "splice")]
+    pictures: bool,
 }
 
 impl Verb for Report {
@@ -36,7 +39,8 @@ impl Verb for Report {
             }
             None => {
                 let own = self.record.parent().map_or_else(PathBuf::new, Path::to_owned);
-                write(&record, self.out.as_deref().unwrap_or(&own))?
+                let pictures = if self.pictures { pictures(&record) } else { Pictures::new() };
+                write(&record, &pictures, self.out.as_deref().unwrap_or(&own))?
             }
         };
         let names: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
@@ -54,13 +58,13 @@ fn into_text(from: &Path, record: &Record, path: &Path) -> Result<(), Error> {
 }
 
 /// Writes report.md, report.html and cells.csv to a folder and says which files these are.
-pub fn write(record: &Record, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+pub fn write(record: &Record, pictures: &Pictures, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     if !folder.as_os_str().is_empty() {
         std::fs::create_dir_all(folder).map_err(|error| Error::io(folder.display(), error))?;
     }
     let [report, page, cells] = ["report.md", "report.html", "cells.csv"].map(|name| folder.join(name));
     file(&report, |out| out.write_all(markdown(record).as_bytes()))?;
-    file(&page, |out| out.write_all(html(record, &Pictures::new()).as_bytes()))?;
+    file(&page, |out| out.write_all(html(record, pictures).as_bytes()))?;
     file(&cells, |out| write_csv(record, out))?;
     Ok(vec![report, page, cells])
 }

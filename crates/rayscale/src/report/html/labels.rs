@@ -61,10 +61,22 @@ fn marker((x, y): (f64, f64)) -> Rect {
     Rect { x: x - r, y: y - r, width: 2.0 * r, height: 2.0 * r }
 }
 
+/// The rectangle that a horizontal or vertical line takes.
+pub fn line((x1, y1): (f64, f64), (x2, y2): (f64, f64)) -> Rect {
+    const WIDTH: f64 = 2.0;
+    let (x, y) = (x1.min(x2) - WIDTH / 2.0, y1.min(y2) - WIDTH / 2.0);
+    Rect { x, y, width: (x2 - x1).abs() + WIDTH, height: (y2 - y1).abs() + WIDTH }
+}
+
 /// A place within `area` for each point's text, that of the first points first. No label covers
-/// another one or a marker while there is room left for that; `None` is a label without room.
-pub fn place(points: &[(f64, f64)], texts: &[&str], area: Rect) -> Vec<Option<Label>> {
-    let mut taken: Vec<Rect> = points.iter().map(|point| marker(*point)).collect();
+/// another one, a marker or one of the `obstacles`; `None` is a label without room.
+pub fn place(
+    points: &[(f64, f64)],
+    texts: &[&str],
+    area: Rect,
+    obstacles: impl IntoIterator<Item = Rect>,
+) -> Vec<Option<Label>> {
+    let mut taken: Vec<Rect> = points.iter().map(|point| marker(*point)).chain(obstacles).collect();
     let mut labels = Vec::new();
     for (point, text) in points.iter().zip(texts) {
         let size = (width(text), HEIGHT);
@@ -144,7 +156,7 @@ mod tests {
     ];
 
     fn sound(points: &[(f64, f64)]) -> Result<(), TestCaseError> {
-        let labels = place(points, &NAMES[..points.len()], AREA);
+        let labels = place(points, &NAMES[..points.len()], AREA, []);
         let rooms: Vec<Rect> = labels.iter().map(|label| label.expect("room for all").room).collect();
         for (i, room) in rooms.iter().enumerate() {
             prop_assert!(AREA.holds(room));
@@ -168,16 +180,26 @@ mod tests {
 
     #[test]
     fn a_lonely_label_is_beside_its_point_and_a_crowded_one_has_a_line() {
-        let [Some(label)] = place(&[(100.0, 100.0)], &["x"], AREA)[..] else { panic!() };
+        let [Some(label)] = place(&[(100.0, 100.0)], &["x"], AREA, [])[..] else { panic!() };
         assert_eq!(label.leader, None);
         assert!(label.room.x > 100.0);
-        let crowd = place(&[(200.0, 100.0); 12], &NAMES, AREA);
+        let crowd = place(&[(200.0, 100.0); 12], &NAMES, AREA, []);
         assert!(crowd.iter().flatten().any(|label| label.leader.is_some()));
+    }
+
+    #[test]
+    fn lines_are_kept_clear_of() {
+        let [Some(label)] =
+            place(&[(100.0, 100.0)], &["x"], AREA, [line((100.0, 100.0), (200.0, 100.0))])[..]
+        else {
+            panic!()
+        };
+        assert!(label.room.x + label.room.width < 100.0, "to the left, for the line leaves to the right");
     }
 
     #[test]
     fn no_room_is_said() {
         let tiny = Rect { x: 0.0, y: 0.0, width: 5.0, height: 5.0 };
-        assert_eq!(place(&[(2.0, 2.0)], &["long name"], tiny), [None]);
+        assert_eq!(place(&[(2.0, 2.0)], &["long name"], tiny, []), [None]);
     }
 }

@@ -1,7 +1,7 @@
 //! Build against trace: time to an image as rays grow.
 
 use super::super::aggregate::envelope;
-use super::super::labels::place;
+use super::super::labels::{line, place};
 use super::super::scale::short;
 use super::super::style::Styles;
 use super::super::svg::Anchor;
@@ -30,17 +30,19 @@ pub fn growth(cells: &[&Cell], label: &str, styles: &Styles) -> Option<(String, 
     let vertical = Axis { title: "↑ build and trace", values: &[least, most], label: &units::time };
     let Frame { mut svg, x, y, area } = Frame::new(280.0, &horizontal, &vertical);
     let (from, to) = x.range();
-    for (cell, line) in &timed {
+    let mut drawn = Vec::new();
+    for (cell, figures) in &timed {
         let steps = 48;
         let rays = (0..=steps).map(|i| from * (to / from).powf(f64::from(i) / f64::from(steps)));
-        let visible = rays.map(|rays| (rays, total(*line, rays))).take_while(|(_, ns)| *ns <= y.range().1);
+        let visible = rays.map(|rays| (rays, total(*figures, rays))).take_while(|(_, ns)| *ns <= y.range().1);
         let points: Vec<(f64, f64)> = visible.map(|(rays, ns)| (x.at(rays), y.at(ns))).collect();
         let tip = format!(
             "{}: {} to build, {} for each ray",
             cell.structure,
-            units::time(line.0),
-            units::time(line.1)
+            units::time(figures.0),
+            units::time(figures.1)
         );
+        drawn.extend(points.iter().map(|point| line(*point, *point)));
         if points.len() > 1 {
             svg.tip(&tip, |svg| svg.path(&points, &format!("line {}", styles.class(&cell.structure))));
         }
@@ -51,7 +53,7 @@ pub fn growth(cells: &[&Cell], label: &str, styles: &Styles) -> Option<(String, 
     let names: Vec<String> =
         crossings.iter().map(|s| format!("{}: {}", short(s.from), timed[s.winner].0.structure)).collect();
     let texts: Vec<&str> = names.iter().map(String::as_str).collect();
-    for ((spot, name), label) in spots.iter().zip(&texts).zip(place(&spots, &texts, area)) {
+    for ((spot, name), label) in spots.iter().zip(&texts).zip(place(&spots, &texts, area, drawn)) {
         svg.marker(*spot, crate::palette::Shape::Circle, "crossing");
         let Some(label) = label else { continue };
         if let Some(end) = label.leader {
@@ -63,10 +65,10 @@ pub fn growth(cells: &[&Cell], label: &str, styles: &Styles) -> Option<(String, 
     for (i, stretch) in winners.iter().enumerate() {
         let name = &timed[stretch.winner].0.structure;
         let until = winners.get(i + 1).map_or(f64::INFINITY, |next| next.from);
-        // A stretch that ends within the first ray is none.
-        match (stretch.from < 1.0, until) {
-            _ if until < 1.0 => {}
-            (true, f64::INFINITY) => words.push(format!("{name} is first from the first ray on")),
+        // Nobody builds anything for fewer rays than the chart begins with.
+        match (stretch.from <= RAYS.0, until) {
+            _ if until <= RAYS.0 => {}
+            (true, f64::INFINITY) => words.push(format!("{name} is first for any number of rays")),
             (true, _) => words.push(format!("{name} is first up to {} rays", short(until))),
             (false, _) => words.push(format!("{name} from {} on", short(stretch.from))),
         }

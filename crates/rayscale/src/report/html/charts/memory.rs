@@ -51,7 +51,7 @@ pub fn memory_ratio(rows: &[&MemoryRow], label: &str) -> Option<String> {
             names.push(*name);
         }
     }
-    for ((end, name), label) in ends.iter().zip(&names).zip(place(&ends, &names, area)) {
+    for ((end, name), label) in ends.iter().zip(&names).zip(place(&ends, &names, area, [])) {
         let Some(label) = label else { continue };
         if let Some(to) = label.leader {
             svg.line(*end, to, "leader");

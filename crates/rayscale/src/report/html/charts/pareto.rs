@@ -1,7 +1,7 @@
 //! Memory against speed, with the Pareto front.
 
 use super::super::aggregate::{Overall, front};
-use super::super::labels::place;
+use super::super::labels::{line, place};
 use super::super::scale::trimmed;
 use super::super::style::Styles;
 use super::super::svg::Anchor;
@@ -31,7 +31,7 @@ pub fn pareto(overall: &Overall, styles: &Styles) -> Option<String> {
         svg.path(&steps, "front");
     }
     let names: Vec<&str> = rows.iter().map(|(row, _)| row.structure).collect();
-    let labels = place(&points, &names, area);
+    let labels = place(&points, &names, area, steps.windows(2).map(|pair| line(pair[0], pair[1])));
     for (i, ((row, bytes), point)) in rows.iter().zip(&points).enumerate() {
         let note = if best.contains(&i) { ", on the front" } else { "" };
         let tip = format!(
