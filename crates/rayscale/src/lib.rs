@@ -17,6 +17,7 @@ pub mod paper;
 pub mod picture;
 pub mod rays;
 pub mod rayset;
+pub mod recommend;
 pub mod record;
 pub mod registry;
 pub mod report;

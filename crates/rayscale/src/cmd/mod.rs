@@ -15,6 +15,7 @@ mod error;
 mod measure;
 mod paper;
 mod rank;
+mod recommend;
 mod render;
 mod report;
 mod scenes;
@@ -64,6 +65,7 @@ enum Command {
     Report(report::Report),
     Cmp(cmp::Cmp),
     Rank(rank::Rank),
+    Recommend(recommend::Recommend),
     Diff(diff::Diff),
     Render(render::Render),
     Trace(trace::Trace),
@@ -82,6 +84,7 @@ impl Command {
             Self::Report(verb) => verb,
             Self::Cmp(verb) => verb,
             Self::Rank(verb) => verb,
+            Self::Recommend(verb) => verb,
             Self::Diff(verb) => verb,
             Self::Render(verb) => verb,
             Self::Trace(verb) => verb,

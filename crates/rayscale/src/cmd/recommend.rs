@@ -1,0 +1,271 @@
+//! `rayscale recommend`
+
+use super::selection::Selection;
+use super::{Console, Error, Outcome, Verb};
+use crate::check::judge;
+use crate::measure::{Options, Session, run, workloads};
+use crate::rayset::sample;
+use crate::recommend::{Candidate, Recommendation, Wish, rank};
+use crate::record::Record;
+use crate::registry::{self, Choice, StructureSpec};
+use crate::scene::{self, SceneSpec};
+use crate::units;
+use accel::exact::Oracle;
+use accel::{Geometry, Need, Scene};
+use clap::Args;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::time::Duration;
+
+/// Measures quickly on your scene and says which structure to use
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Every structure is built, checked and measured on the scene, with the settings worth trying, and
+ranked by time per ray: the geometric mean over the ray sets, plus each ray's share of the build
+if --rays-per-build says how many rays share one. Uses one thread unless --threads says otherwise.
+
+Errors are counted by exact arithmetic on a few thousand rays, so a rate below one in as many can
+be seen to be met but not proved.
+
+Examples:
+  rayscale recommend model.obj
+  rayscale recommend sponza --rays shadow,diffuse --memory 64MiB
+  rayscale recommend model.obj --rays-per-build 2000000 --max-error 1e-4")]
+pub struct Recommend {
+    /// Scene: an id, a definition or a mesh
+    scene: String,
+    /// Ray sets that matter to you
+    #[arg(long, value_name = "RAYS", value_delimiter = ',', default_value = "perspective,diffuse")]
+    rays: Vec<String>,
+    /// Memory that structure and geometry copy may take, such as 64MiB
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    memory: Option<u64>,
+    /// Share of rays whose answer may be wrong, such as 1e-6
+    #[arg(long, value_name = "RATE", value_parser = rate)]
+    max_error: Option<f64>,
+    /// Rays traced for each build; otherwise the build doesn't count
+    #[arg(long, value_name = "N")]
+    rays_per_build: Option<u64>,
+}
+
+/// Bytes by a number with a unit.
+fn size(text: &str) -> Result<u64, String> {
+    let digits = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let unit = match unit.trim().to_ascii_lowercase().as_str() {
+        "" | "b" => 1.0,
+        "k" | "kib" => 1024.0,
+        "m" | "mib" => 1024.0 * 1024.0,
+        "g" | "gib" => 1024.0 * 1024.0 * 1024.0,
+        "kb" => 1e3,
+        "mb" => 1e6,
+        "gb" => 1e9,
+        _ => return Err("must be a size such as 64MiB, 500kB or 1000000".to_owned()),
+    };
+    match number.parse::<f64>() {
+        Ok(n) if n > 0.0 => Ok((n * unit) as u64),
+        _ => Err("must be a size such as 64MiB, 500kB or 1000000".to_owned()),
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|r| (0.0..=1.0).contains(r))
+        .ok_or_else(|| "must be a share from 0 to 1".to_owned())
+}
+
+/// Settings worth trying besides the default ones.
+const SETTINGS: [(&str, &str); 4] = [
+    ("embree", "quality=high"),
+    ("embree", "quality=low"),
+    ("obvhs-cwbvh", "preset=fastest"),
+    ("obvhs-bvh2", "preset=fastest"),
+];
+
+/// Structures that test every object for every ray are candidates up to so many objects.
+const FEW_OBJECTS: usize = 2000;
+
+/// Rays judged exactly for a kernel and ray set.
+const JUDGED: usize = 4000;
+
+impl Verb for Recommend {
+    fn run(&self, console: &Console) -> Result<Outcome, Error> {
+        let selection = Selection { rays: self.rays.clone(), ..Selection::default() };
+        let rays = selection.rays(&[])?;
+        let spec: SceneSpec = self.scene.parse()?;
+        let scene = scene::load(&spec)?;
+        let choices = choices(&scene, self.max_error.is_some())?;
+        let session = Session {
+            scenes: vec![self.scene.clone()],
+            rays,
+            size: 192,
+            seed: 1,
+            options: quick(console),
+            memory: false,
+            most_time: Some(Duration::from_secs(30)),
+            command: String::new(),
+        };
+        console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
+        let wish = Wish {
+            memory: self.memory,
+            max_error: self.max_error,
+            rays_per_build: self.rays_per_build.map(|n| n as f64),
+        };
+        let (record, errors) = console.in_pool(1, || {
+            let record = run(&session, &choices, |line| console.note(line), |_| {});
+            let errors = if self.max_error.is_some() { errors(&session, &scene) } else { BTreeMap::new() };
+            (record, errors)
+        })?;
+        let record = record?;
+        let ranking = rank(&record, &errors, &wish);
+        console.result(
+            &serde_json::json!({ "scene": scene.id, "wish": wish, "recommendation": ranking }),
+            in_words(&record, &wish, &ranking),
+        )?;
+        Ok(if ranking.fitting.is_empty() { Outcome::Failed } else { Outcome::Done })
+    }
+}
+
+fn quick(console: &Console) -> Options {
+    let usual = Options::default();
+    Options {
+        threads: console.threads().unwrap_or(1),
+        rounds: 7,
+        least_rounds: 3,
+        cell_time: Duration::from_millis(200),
+        build_rounds: 1,
+        build_time: Duration::from_millis(100),
+        check_tests: usual.check_tests / 4,
+        exact_rays: 200,
+        ..usual
+    }
+}
+
+/// Every structure by default, some with other settings too; other kernels where accuracy counts.
+fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
+    let mut specs: Vec<StructureSpec> = registry::defaults();
+    specs.retain(|spec| {
+        scene.geometry.len() <= FEW_OBJECTS
+            || !registry::find(&spec.id).is_ok_and(|entry| entry.traits.linear)
+    });
+    let here = |id: &str| registry::find(id).is_ok();
+    for (id, settings) in SETTINGS.iter().filter(|(id, _)| here(id)) {
+        specs.push(format!("{id}:{settings}").parse()?);
+    }
+    if accuracy {
+        for id in ["bmssm", "ssm"].into_iter().filter(|id| here(id)) {
+            for kernel in ["watertight", "exact"] {
+                specs.push(format!("{id}:kernel={kernel}").parse()?);
+            }
+        }
+    }
+    specs.iter().map(|spec| Ok(registry::choose(spec)?)).collect()
+}
+
+/// The share of wrong answers of the suite's kernels, by exact arithmetic.
+fn errors(session: &Session, scene: &Scene) -> BTreeMap<(String, String), f64> {
+    let Geometry::Triangles(mesh) = &scene.geometry else { return BTreeMap::new() };
+    let oracle = Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)));
+    let mut all = BTreeMap::new();
+    let workloads = workloads(session, scene, &mut Vec::new());
+    for kernel in ["moller-trumbore", "watertight", "exact"] {
+        let grid = registry::parse(&format!("ssm:kernel={kernel}")).ok();
+        let Some(accel) = grid.and_then(|c| c.builder.build(scene, &Need::GENERAL).ok()) else { continue };
+        for workload in &workloads {
+            let numbers = sample(workload.rays.len(), JUDGED);
+            let mut hits = vec![None; workload.rays.len()];
+            accel.trace(&workload.rays, &mut hits);
+            let wrong = judge(&oracle, &workload.rays, &hits, &numbers);
+            let rate =
+                (wrong.missed + wrong.false_hits + wrong.wrong_object) as f64 / numbers.len().max(1) as f64;
+            all.insert((kernel.to_owned(), workload.id.clone()), rate);
+        }
+    }
+    all
+}
+
+fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
+    let mut text = String::new();
+    let settings = |structure: &str| {
+        record.structures.iter().find(|s| s.id == structure).map(|s| s.settings.clone()).unwrap_or_default()
+    };
+    let width =
+        ranking.fitting.iter().chain(&ranking.others).map(|c| c.structure.len()).max().unwrap_or(9).max(9);
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        text,
+        "    {:width$}  {:>9}  {:>9}  {:>10}  errors",
+        "structure", "per ray", "build", "memory"
+    );
+    for (i, c) in ranking.fitting.iter().enumerate() {
+        let _ = writeln!(text, "{:>2}. {}", i + 1, row(c, width));
+    }
+    for c in &ranking.others {
+        let _ = writeln!(text, " –  {}  ({})", row(c, width), c.misfits.join("; "));
+    }
+    for (structure, reason) in &ranking.unfit {
+        let _ = writeln!(text, " –  {structure:width$}  {reason}");
+    }
+    let sets = record.ray_sets().join(" and ");
+    let _ = match (&ranking.fitting[..], &ranking.others[..]) {
+        ([best, rest @ ..], _) => {
+            let build = if wish.rays_per_build.is_some() { " with its share of the build" } else { "" };
+            let gap = rest.first().map_or(String::new(), |next| {
+                let ratio = next.cost / best.cost;
+                let next = &next.structure;
+                if ratio < 1.05 {
+                    format!("; {next} is as good within 5 %")
+                } else {
+                    format!("; {next} takes {ratio:.2} times as long")
+                }
+            });
+            write!(
+                text,
+                "\nUse `{}`: the least time per ray{build} on {sets} rays of all that fit ({}){gap}.\nIts settings: {}",
+                best.structure,
+                units::time(best.cost),
+                settings(&best.structure)
+            )
+        }
+        ([], [nearest, ..]) => write!(
+            text,
+            "\nNothing fits. `{}` comes nearest: {}.\nIts settings: {}",
+            nearest.structure,
+            nearest.misfits.join("; "),
+            settings(&nearest.structure)
+        ),
+        ([], []) => write!(text, "\nNothing could be measured."),
+    };
+    text
+}
+
+fn row(c: &Candidate, width: usize) -> String {
+    let error = match c.error {
+        Some(0.0) => "none seen".to_owned(),
+        Some(error) => format!("{error:.1e}"),
+        None => String::new(),
+    };
+    let (ns, build) = (units::time(c.ns), units::time(c.build_ns));
+    let bytes = units::bytes(c.bytes);
+    format!("{:width$}  {ns:>9}  {build:>9}  {bytes:>10}  {error}", c.structure).trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_have_units() {
+        for (text, bytes) in
+            [("64MiB", 64 << 20), ("1.5 GiB", 3 << 29), ("500kB", 500_000), ("7", 7), ("2k", 2048)]
+        {
+            assert_eq!(size(text), Ok(bytes), "{text}");
+        }
+        for text in ["", "MiB", "0", "-1", "1 parsec", "1..2k"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+        assert_eq!(rate("1e-6"), Ok(1e-6));
+        assert!(rate("2").is_err() && rate("NaN").is_err());
+    }
+}

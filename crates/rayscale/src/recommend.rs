@@ -1,0 +1,226 @@
+//! Which structure to use: measured candidates ranked under a user's constraints.
+
+use crate::record::{Cell, Record};
+use crate::stats::{geometric_mean, median};
+use crate::units;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What a user asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Wish {
+    /// Bytes that structure and geometry copy may take together.
+    pub memory: Option<u64>,
+    /// The share of rays whose answer may be wrong.
+    pub max_error: Option<f64>,
+    /// Rays traced for each build; without it the build doesn't count.
+    pub rays_per_build: Option<f64>,
+}
+
+/// A structure with its figures on a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Candidate {
+    /// The structure, with the settings to ask for.
+    pub structure: String,
+    /// What is minimised: ns per ray with the ray's share of the build, geometric mean over ray sets.
+    pub cost: f64,
+    /// Time per ray in ns, geometric mean over ray sets.
+    pub ns: f64,
+    /// Time to build in ns, the longest over ray sets.
+    pub build_ns: f64,
+    /// Bytes of structure and geometry copy, the most over ray sets.
+    pub bytes: u64,
+    /// Share of wrong answers, the largest over ray sets; none where it was not decided.
+    pub error: Option<f64>,
+    /// How the candidate fails the wish, in words; empty if it fits.
+    pub misfits: Vec<String>,
+    /// By which factor it exceeds what it exceeds most; 1 if it fits.
+    pub excess: f64,
+}
+
+/// Candidates in order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Recommendation {
+    /// Those that fit, the best first.
+    pub fitting: Vec<Candidate>,
+    /// Those that don't, the nearest to fitting first.
+    pub others: Vec<Candidate>,
+    /// Structures without a figure for every ray set, with the reason.
+    pub unfit: Vec<(String, String)>,
+}
+
+/// Ranks the structures of a record of one scene. `errors` has the share of wrong answers by
+/// kernel and ray set, for kernels of the suite.
+pub fn rank(record: &Record, errors: &BTreeMap<(String, String), f64>, wish: &Wish) -> Recommendation {
+    let mut all = Recommendation::default();
+    let sets = record.ray_sets();
+    for structure in record.structure_ids() {
+        let cells: Vec<&Cell> = record.cells.iter().filter(|c| c.structure == structure).collect();
+        match candidate(structure, &cells, &sets, errors, wish) {
+            Ok(candidate) if candidate.misfits.is_empty() => all.fitting.push(candidate),
+            Ok(candidate) => all.others.push(candidate),
+            Err(reason) => all.unfit.push((structure.to_owned(), reason)),
+        }
+    }
+    all.fitting.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    all.others.sort_by(|a, b| a.excess.total_cmp(&b.excess).then(a.cost.total_cmp(&b.cost)));
+    all
+}
+
+fn candidate(
+    structure: &str,
+    cells: &[&Cell],
+    sets: &[&str],
+    errors: &BTreeMap<(String, String), f64>,
+    wish: &Wish,
+) -> Result<Candidate, String> {
+    if let Some(error) = cells.iter().find_map(|cell| cell.error.clone()) {
+        return Err(error);
+    }
+    if let Some(set) = sets.iter().find(|set| !cells.iter().any(|cell| cell.rays == **set)) {
+        return Err(format!("does not serve {set} rays"));
+    }
+    let figures: Option<Vec<(f64, f64)>> = cells.iter().map(|cell| Some((cell.ns()?, build(cell)))).collect();
+    let figures = figures.ok_or("has no sample")?;
+    let share = |build: f64| wish.rays_per_build.map_or(0.0, |rays| build / rays.max(1.0));
+    let mean = |values: Vec<f64>| geometric_mean(&values).ok_or("has no sample");
+    let bytes = |cell: &&Cell| cell.bytes.as_ref().map_or(0, |b| b.structure + b.geometry_copy);
+    let wrong: Option<Vec<f64>> = cells.iter().map(|cell| error_rate(cell, errors)).collect();
+    let mut candidate = Candidate {
+        structure: structure.to_owned(),
+        cost: mean(figures.iter().map(|(ns, build)| ns + share(*build)).collect())?,
+        ns: mean(figures.iter().map(|(ns, _)| *ns).collect())?,
+        build_ns: figures.iter().map(|(_, build)| *build).fold(0.0, f64::max),
+        bytes: cells.iter().map(bytes).max().unwrap_or(0),
+        error: wrong.map(|rates| rates.into_iter().fold(0.0, f64::max)),
+        misfits: Vec::new(),
+        excess: 1.0,
+    };
+    if let Some(limit) = wish.memory.filter(|limit| candidate.bytes > *limit) {
+        let excess = candidate.bytes as f64 / limit.max(1) as f64;
+        candidate.misfits.push(format!("takes {}", units::bytes(candidate.bytes)));
+        candidate.excess = candidate.excess.max(excess);
+    }
+    if let Some(limit) = wish.max_error {
+        match candidate.error {
+            Some(error) if error <= limit => {}
+            Some(error) => {
+                candidate.misfits.push(format!("{error:.1e} of its answers are wrong"));
+                candidate.excess = candidate.excess.max(error / limit.max(1e-12));
+            }
+            None => {
+                candidate.misfits.push("its errors are not known".to_owned());
+                candidate.excess = f64::INFINITY;
+            }
+        }
+    }
+    Ok(candidate)
+}
+
+/// Median build time in ns.
+fn build(cell: &Cell) -> f64 {
+    let samples: Vec<f64> = cell.build_ns.iter().map(|ns| *ns as f64).collect();
+    median(&samples).unwrap_or(0.0)
+}
+
+/// The share of wrong answers of a cell: those decided exactly or, for rays that only ask whether
+/// there is a hit, those that differ from brute force; for the suite's kernels the kernel's own.
+fn error_rate(cell: &Cell, errors: &BTreeMap<(String, String), f64>) -> Option<f64> {
+    let check = cell.check.as_ref()?;
+    let rays = check.rays_checked.max(1) as f64;
+    if cell.kernel != "own" {
+        return errors.get(&(cell.kernel.clone(), cell.rays.clone())).copied();
+    }
+    Some(match check.errors {
+        Some(e) => (e.missed + e.false_hits + e.wrong_object) as f64 / rays,
+        None => check.differences as f64 / rays,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Errors;
+    use crate::testing;
+
+    /// Scene `two` only: a 40 and 80 ns, b 80 and 160, c 20 and 40.
+    fn record() -> Record {
+        let mut record = testing::record();
+        record.cells.retain(|cell| cell.scene == "two");
+        record
+    }
+
+    fn names(candidates: &[Candidate]) -> Vec<&str> {
+        candidates.iter().map(|c| c.structure.as_str()).collect()
+    }
+
+    #[test]
+    fn the_fastest_is_first_and_building_counts_by_rays() {
+        let mut record = record();
+        let all = rank(&record, &BTreeMap::new(), &Wish::default());
+        assert_eq!(names(&all.fitting), ["c", "a", "b"]);
+        assert!((all.fitting[0].ns - (20.0f64 * 40.0).sqrt()).abs() < 0.5);
+        for cell in record.cells.iter_mut().filter(|cell| cell.structure == "c") {
+            cell.build_ns = vec![1_000_000_000];
+        }
+        let wish = Wish { rays_per_build: Some(1e6), ..Wish::default() };
+        assert_eq!(names(&rank(&record, &BTreeMap::new(), &wish).fitting), ["a", "b", "c"]);
+        let wish = Wish { rays_per_build: Some(1e9), ..Wish::default() };
+        assert_eq!(names(&rank(&record, &BTreeMap::new(), &wish).fitting), ["c", "a", "b"]);
+    }
+
+    #[test]
+    fn memory_is_a_limit_and_the_nearest_misfit_comes_first() {
+        let mut record = record();
+        for cell in &mut record.cells {
+            let bytes = cell.bytes.as_mut().unwrap();
+            bytes.structure = match cell.structure.as_str() {
+                "a" => 1_000_000,
+                "b" => 100_000,
+                _ => 10_000_000,
+            };
+        }
+        let with =
+            |memory| rank(&record, &BTreeMap::new(), &Wish { memory: Some(memory), ..Wish::default() });
+        assert_eq!(names(&with(2_000_000).fitting), ["a", "b"]);
+        let none = with(50_000);
+        assert!(none.fitting.is_empty());
+        assert_eq!(names(&none.others), ["b", "a", "c"]);
+        assert!(none.others[0].misfits[0].contains("KiB"), "{:?}", none.others[0].misfits);
+    }
+
+    #[test]
+    fn errors_count_by_kernel_or_by_structure() {
+        let mut record = record();
+        for cell in record.cells.iter_mut().filter(|cell| cell.structure == "c") {
+            cell.kernel = "own".into();
+            cell.check.as_mut().unwrap().errors =
+                Some(Errors { missed: 2, rays_exact: 1000, ..Errors::default() });
+        }
+        let key = |rays: &str| ("moller-trumbore".to_owned(), rays.to_owned());
+        let errors = [(key("parallel"), 0.0), (key("random"), 1e-4)].into();
+        let wish = Wish { max_error: Some(1e-3), ..Wish::default() };
+        let all = rank(&record, &errors, &wish);
+        assert_eq!(names(&all.fitting), ["a", "b"]);
+        assert_eq!(all.fitting[0].error, Some(1e-4));
+        assert_eq!(all.others[0].error, Some(2e-3));
+        let unknown = rank(&record, &BTreeMap::new(), &wish);
+        assert!(unknown.fitting.is_empty(), "what is not known does not fit");
+    }
+
+    #[test]
+    fn structures_without_figures_are_named_with_the_reason() {
+        let mut record = record();
+        record.cells[0].error = Some("it fell over".into());
+        record.cells.retain(|cell| cell.structure != "b" || cell.rays != "random");
+        let all = rank(&record, &BTreeMap::new(), &Wish::default());
+        assert_eq!(names(&all.fitting), ["c"]);
+        assert_eq!(
+            all.unfit,
+            [
+                ("a".to_owned(), "it fell over".to_owned()),
+                ("b".to_owned(), "does not serve random rays".to_owned()),
+            ]
+        );
+    }
+}
