@@ -14,7 +14,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale diff before.json after.json
-  rayscale diff before.json after.json --rays parallel --all")]
+  rayscale diff before.json after.json --rays parallel --all
+  rayscale diff before.json after.json --fail-above 10%")]
 pub struct Diff {
     /// The record before
     before: PathBuf,
@@ -25,6 +26,16 @@ pub struct Diff {
     /// Show changes within noise as well
     #[arg(long)]
     all: bool,
+    /// Exit with 1 if any cell got slower beyond noise, and by more than so much, such as 10%
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    fail_above: Option<f64>,
+}
+
+/// A share by percent, the sign being optional.
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text.strip_suffix('%').unwrap_or(text).trim().parse::<f64>();
+    let sound = number.ok().filter(|percent| *percent >= 0.0 && percent.is_finite());
+    sound.map(|percent| percent / 100.0).ok_or_else(|| "must be a percentage such as 10%".to_owned())
 }
 
 impl Verb for Diff {
@@ -46,6 +57,21 @@ impl Verb for Diff {
             let _ = write!(text, "\n{mark} {ratio:6.3}  [{low:.3}, {high:.3}]  {scene} {rays} {structure}");
         }
         console.result(&shown, text)?;
-        Ok(Outcome::Done)
+        let slower = |limit: f64| all.iter().any(|c| c.beyond_noise && c.ratio > 1.0 + limit);
+        Ok(if self.fail_above.is_some_and(slower) { Outcome::Failed } else { Outcome::Done })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentages() {
+        assert_eq!(percent("10%"), Ok(0.1));
+        assert_eq!(percent("0"), Ok(0.0));
+        for bad in ["", "%", "-1%", "NaN", "ten"] {
+            assert!(percent(bad).is_err(), "{bad}");
+        }
     }
 }

@@ -3,7 +3,9 @@
 mod bad_input;
 mod browser;
 mod common;
+mod diff;
 mod frame;
 mod pictures;
 mod records;
+mod schema;
 mod trace;
