@@ -87,7 +87,10 @@ impl Error {
             Self::Unknown { near, .. } => Some(format!("did you mean {}?", list(near))),
             Self::Usage { todo, .. } => Some(todo.clone()),
             Self::Build(BuildError::Unsupported { .. }) => Some("choose another structure".into()),
-            Self::Scene(error) => error.hint().map(str::to_owned),
+            Self::Scene(SceneError::Io { .. }) => Some("check the path and who may read or write it".into()),
+            Self::Scene(error) => {
+                Some(error.hint().unwrap_or("correct the scene, or export it again").into())
+            }
             Self::Registry(RegistryError::Unknown { .. }) => {
                 Some("`rayscale structures` lists what there is".into())
             }

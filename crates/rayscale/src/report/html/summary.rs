@@ -167,7 +167,8 @@ fn checks(record: &Record) -> String {
     if !foreign.is_empty() {
         let join = if own.is_empty() { "" } else { "; " };
         text += &format!(
-            "{join}structures with a test of their own differ on {} of {} (see <a href=\"#errors\">errors</a>)",
+            "{join}structures with a test of their own give other bits on {} of {} (what is \
+             wrong by exact arithmetic is under <a href=\"#errors\">errors</a>)",
             units::count(differences(&foreign)),
             units::count(rays(&foreign))
         );
