@@ -39,11 +39,14 @@ impl Default for Ssm {
 }
 
 impl Ssm {
-    /// Names and meanings of the settings that [`Settings::NAMES`] does not list.
-    pub const NAMES: [(&str, &str); 1] =
-        [("divide", "tests of 16 objects that dividing a cell must spare a ray, or off")];
+    /// Names and meanings, for help texts.
+    pub const NAMES: [(&str, &str); 6] = {
+        let [kernel, simd, resolution, density, memory] = Settings::NAMES;
+        let divide = ("divide", "tests of 16 objects that dividing a cell must spare a ray, or off");
+        [kernel, simd, resolution, density, divide, memory]
+    };
 
-    /// Changes one setting, see [`Settings::NAMES`] and [`Ssm::NAMES`].
+    /// Changes one setting, see [`Ssm::NAMES`].
     ///
     /// # Errors
     /// [`BuildError::Setting`] if there is no such setting or the value makes no sense.
