@@ -28,7 +28,7 @@ use crate::packet::{Common, Lanes, Packet};
 use crate::simd::{Row, Scalar, Simd};
 use std::cmp::Ordering;
 
-/// The exact test: see the [module](self) and [`crate::exact`] for what counts as a hit.
+/// The exact test: see [`crate::exact`] for what counts as a hit.
 /// u and v are right to about one unit in the last place of 1.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
