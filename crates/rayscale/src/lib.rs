@@ -25,4 +25,5 @@ pub mod scene;
 pub mod stats;
 #[cfg(test)]
 mod testing;
+pub mod trade;
 pub mod units;

@@ -1,7 +1,7 @@
 //! `rayscale measure`: a record.
 
 use super::selection::Selection;
-use super::{Console, Error, Outcome, Verb};
+use super::{Console, Error, Outcome, Verb, command_line};
 use crate::measure::{self, Options, Session};
 use crate::rays::RaysId;
 use crate::record::{self, Record};
@@ -86,7 +86,7 @@ pub fn measure(
         },
         memory: !effort.no_memory,
         most_time: effort.max_seconds.map(|s| Duration::from_secs(s.into())),
-        command: command(),
+        command: command_line(),
     };
     let steps = session.scenes.len() * session.rays.len();
     let bar = console.bar(steps as u64, "measuring");
@@ -110,13 +110,6 @@ pub fn measure(
         record::write(out, &record)?;
     }
     Ok(record)
-}
-
-/// The command line as given.
-fn command() -> String {
-    let words =
-        std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
-    std::iter::once("rayscale".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
 /// A line for each cell that failed for another reason than that the structure doesn't serve it.

@@ -23,6 +23,7 @@ mod selection;
 mod structure;
 mod structures;
 mod trace;
+mod trade;
 mod welcome;
 
 pub use console::Console;
@@ -72,6 +73,7 @@ enum Command {
     Scenes(scenes::Scenes),
     Structures(structures::Structures),
     Paper(paper::PaperVerb),
+    Trade(trade::Trade),
     Completions(completions::Completions),
 }
 
@@ -90,6 +92,7 @@ impl Command {
             Self::Trace(verb) => verb,
             Self::Scenes(verb) => verb,
             Self::Structures(verb) => verb,
+            Self::Trade(verb) => verb,
             Self::Completions(verb) => verb,
             Self::Paper(verb) => verb,
         }
@@ -112,6 +115,13 @@ pub enum Outcome {
     Done,
     /// What was to be checked is not so: exit code 1.
     Failed,
+}
+
+/// The command line as given.
+fn command_line() -> String {
+    let words =
+        std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
+    std::iter::once("rayscale".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
 /// The whole program.

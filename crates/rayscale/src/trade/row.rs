@@ -1,0 +1,107 @@
+//! Rows of the trade: time, memory and errors side by side.
+
+use super::Accuracy;
+use crate::report::table::Table;
+use serde::Serialize;
+
+/// A structure with a kernel on a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Scene.
+    pub scene: String,
+    /// Structure with its settings.
+    pub structure: String,
+    /// Kernel, or `own` for a foreign structure's.
+    pub kernel: String,
+    /// Geometric mean over the timed ray sets, unless one of them failed.
+    pub ns_per_ray: Option<f64>,
+    /// Memory of structure and geometry copy.
+    pub bytes: Option<u64>,
+    /// Errors; none where nothing could be judged.
+    pub accuracy: Option<Accuracy>,
+    /// Whether no other row of the scene is as fast and as right, and better in one of them.
+    pub front: bool,
+    /// What went wrong, if anything did.
+    pub error: Option<String>,
+}
+
+impl Row {
+    /// ns per ray and errors in a million rays, where both are known.
+    pub fn point(&self) -> Option<(f64, f64)> {
+        Some((self.ns_per_ray?, self.accuracy.as_ref()?.errors_per_million()))
+    }
+}
+
+/// Marks the Pareto front of the rows of one scene.
+pub fn mark_front(rows: &mut [Row]) {
+    let points: Vec<_> = rows.iter().map(Row::point).collect();
+    for (row, point) in rows.iter_mut().zip(&points) {
+        row.front = point.is_some_and(|(ns, errors)| {
+            !points.iter().flatten().any(|(n, e)| *n <= ns && *e <= errors && (*n < ns || *e < errors))
+        });
+    }
+}
+
+/// The table; rows on the front have a star.
+pub fn table(rows: &[Row]) -> Table {
+    let mut table = Table::new([
+        "scene",
+        "structure",
+        "ns/ray",
+        "MB",
+        "missed/M",
+        "false/M",
+        "wrong object/M",
+        "leaks/M",
+        "self-hits/M",
+        "t ulp median",
+        "99 %",
+        "max",
+    ]);
+    let figure = |value: f64| match value {
+        0.0 => "0".to_owned(),
+        v if v >= 1e6 => format!("{v:.1e}"),
+        v if v >= 100.0 => format!("{v:.0}"),
+        v => format!("{v:.2}"),
+    };
+    for row in rows {
+        let star = if row.front { " *" } else { "" };
+        let mut cells = vec![row.scene.clone(), format!("{}{star}", row.structure)];
+        cells.push(row.ns_per_ray.map_or("–".to_owned(), figure));
+        cells.push(row.bytes.map_or("–".to_owned(), |b| figure(b as f64 / 1e6)));
+        match &row.accuracy {
+            None => cells.extend((0..8).map(|_| "failed".to_owned())),
+            Some(a) => {
+                let million = |n: u64| figure(n as f64 * 1e6 / a.rays.max(1) as f64);
+                cells.extend([million(a.missed), million(a.false_hits), million(a.wrong_object)]);
+                cells.extend([a.leaks_per_million(), a.self_hits_per_million()].map(figure));
+                cells.extend([a.t_ulp_median, a.t_ulp_p99, a.t_ulp_max].map(figure));
+            }
+        }
+        table.rows.push(cells);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_is_what_nothing_beats() {
+        let row = |ns: f64, missed: u64| Row {
+            scene: "s".into(),
+            structure: "x".into(),
+            kernel: "own".into(),
+            ns_per_ray: Some(ns),
+            bytes: None,
+            accuracy: Some(Accuracy { rays: 100, missed, ..Accuracy::default() }),
+            front: false,
+            error: None,
+        };
+        let mut rows = [row(1.0, 5), row(2.0, 5), row(2.0, 1), row(3.0, 0), row(4.0, 0)];
+        rows[4].ns_per_ray = None;
+        mark_front(&mut rows);
+        assert_eq!(rows.map(|row| row.front), [true, false, true, true, false]);
+    }
+}
