@@ -31,7 +31,7 @@ pub struct Compare {
 }
 
 /// Seconds that the default set is given.
-const SECONDS: u32 = 300;
+const SECONDS: u32 = 540;
 /// Rows and columns with `--full`.
 const FULL_SIZE: u32 = 512;
 

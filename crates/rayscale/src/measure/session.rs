@@ -27,14 +27,15 @@ pub struct Session {
     pub options: Options,
     /// Whether memory by resolution is recorded.
     pub memory: bool,
-    /// After so long no new scene begins, and the samples of a cell get shorter time.
+    /// After so long no new scene begins, what is left is recorded as skipped, and the samples of a cell get
+    /// shorter time.
     pub most_time: Option<Duration>,
     /// The command as given.
     pub command: String,
 }
 
 /// Measures. `tell` gets a line for every scene and ray set; `keep` gets the record as it is after every
-/// scene. What can't be done is in the record with its reason.
+/// scene, measured or skipped. What can't be done is in the record with its reason.
 ///
 /// # Errors
 /// A scene that is unsound; scenes that are merely not on this machine are skipped.
@@ -48,9 +49,9 @@ pub fn run(
     let mut record = blank(session, choices);
     let mut options = session.options.clone();
     if let Some(most) = session.most_time {
-        // Builds and checks take about as long as the samples.
+        // Builds, checks and memory take several times as long as the samples.
         let cells = session.scenes.len() * session.rays.len() * choices.len();
-        options.cell_time = options.cell_time.min(most.mul_f64(0.4) / cells.max(1) as u32);
+        options.cell_time = options.cell_time.min(most.mul_f64(0.2) / cells.max(1) as u32);
         options.build_time = options.build_time.min(4 * options.cell_time);
     }
     for (i, id) in session.scenes.iter().enumerate() {
@@ -60,6 +61,7 @@ pub fn run(
             Err(error) if error.is_unavailable() => {
                 tell(&format!("{id}: skipped: {error}"));
                 record.skipped.push(Skipped { id: id.clone(), reason: error.to_string() });
+                keep(&record);
                 continue;
             }
             Err(error) => return Err(error),
@@ -67,6 +69,7 @@ pub fn run(
         let scene = &loaded.scene;
         if session.most_time.is_some_and(|most| start.elapsed() >= most) {
             record.skipped.push(Skipped { id: scene.id.clone(), reason: "the time was up".to_owned() });
+            keep(&record);
             continue;
         }
         tell(&format!(
