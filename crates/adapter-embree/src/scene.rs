@@ -166,9 +166,7 @@ impl<'m> EmbreeScene<'m> {
     #[inline]
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         let mut rayhit = RayHit1::new(single(ray));
-        // SAFETY: the scene is committed; the ray-hit has the layout and alignment that Embree 4.0
-        // to 4.4 write to; the arguments are only read.
-        unsafe { sys::rtcIntersect1(self.handle.as_ptr(), &raw mut rayhit, &raw const SINGLE_RAYS) };
+        self.intersect1(&mut rayhit);
         let hit = &rayhit.hit;
         (hit.geom != sys::RTC_INVALID_GEOMETRY_ID).then_some(Hit {
             t: rayhit.ray.tfar,
@@ -176,6 +174,14 @@ impl<'m> EmbreeScene<'m> {
             u: hit.u,
             v: hit.v,
         })
+    }
+
+    /// `rtcIntersect1` as it is, for those who keep rays in Embree's layout.
+    #[inline]
+    pub fn intersect1(&self, rayhit: &mut RayHit1) {
+        // SAFETY: the scene is committed; the ray-hit has the layout and alignment that Embree 4.0
+        // to 4.4 write to; the arguments are only read.
+        unsafe { sys::rtcIntersect1(self.handle.as_ptr(), rayhit, &raw const SINGLE_RAYS) };
     }
 
     /// Whether one ray hits anything (`rtcOccluded1`).

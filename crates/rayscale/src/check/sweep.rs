@@ -2,15 +2,19 @@
 
 use super::{Reference, compare};
 use crate::answers::Answers;
-use crate::measure::{Options, Session, guard, workloads};
+use crate::measure::{Options, Session, guard, in_time, workloads};
 use crate::rays::RaysId;
-use crate::rayset::thin;
+use crate::rayset::{Workload, thin};
 use crate::record::Query;
 use crate::registry::Choice;
 use crate::scene::{self, SceneError, SceneSpec};
 use accel::{Accel, BuildError, KernelId, Need, RaySet, Scene};
+use rayon::prelude::*;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// What is checked.
 #[derive(Clone, Debug)]
@@ -119,76 +123,142 @@ fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally:
         most_time: None,
         command: String::new(),
     };
+    let few = (sweep.tests / 16 / scene.geometry.len().max(1) as u64).max(1);
+    let few = usize::try_from(few).unwrap_or(usize::MAX);
     // A set that has no rays on this scene (no objects, no hits) is nothing to check.
-    let workloads = workloads(&session, scene, &mut Vec::new());
-    for workload in &workloads {
-        let mut refs = References { sweep, scene, known: BTreeMap::new() };
-        let few = (sweep.tests / 16 / scene.geometry.len().max(1) as u64).max(1);
-        let thinned = thin(&workload.rays, usize::try_from(few).unwrap_or(usize::MAX));
-        for (row, choice) in choices.iter().enumerate() {
-            let traits = &choice.entry.traits;
-            let rays = if traits.thins(&workload.rays) { &thinned } else { &workload.rays };
-            if !traits.lists && matches!(rays, RaySet::List(_)) {
-                continue;
-            }
-            match guard("the build", || choice.builder.build(scene, &Need::of(rays))) {
-                Ok(Ok(accel)) => {
-                    for query in [Query::Closest, Query::Occluded] {
-                        let place = format!("{}: {} {} {query:?}", choice.spec, scene.id, workload.id);
-                        one_set(&mut refs, choice, accel.as_ref(), rays, query, &place, row, tally);
-                    }
-                }
-                Ok(Err(BuildError::Unsupported { .. })) => {}
-                Ok(Err(error)) => broken(tally, format!("{}: {}: {error}", choice.spec, scene.id)),
-                Err(error) => broken(tally, format!("{}: {}: {error}", choice.spec, scene.id)),
-            }
+    let sets: Vec<Set> = workloads(&session, scene, &mut Vec::new())
+        .into_iter()
+        .map(|set| Set { thinned: thin(&set.rays, few), set, right: Mutex::default() })
+        .collect();
+    let found: Vec<Found> =
+        choices.par_iter().map(|choice| one_choice(sweep, scene, choice, &sets)).collect();
+    for (row, found) in tally.structures.iter_mut().zip(&found) {
+        row.rays += found.rays;
+        row.differences += found.differences;
+    }
+    for found in found {
+        tally.broken |= found.broken;
+        found.findings.into_iter().for_each(|text| finding(tally, text));
+    }
+}
+
+/// A ray set with what brute force answers, computed when first asked for.
+struct Set {
+    set: Workload,
+    /// For structures whose time grows with the number of objects.
+    thinned: RaySet,
+    right: Mutex<BTreeMap<(KernelId, Query, usize), Arc<Reference>>>,
+}
+
+impl Set {
+    /// `rays` are the set's or fewer of them.
+    fn right(
+        &self,
+        sweep: &Sweep,
+        scene: &Scene,
+        rays: &RaySet,
+        query: Query,
+        kernel: KernelId,
+    ) -> Arc<Reference> {
+        let key = (kernel, query, rays.len());
+        let known = || self.right.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(right) = known().get(&key) {
+            return right.clone();
         }
+        // Not under the lock: brute force runs in the pool whose threads may wait for it.
+        let right = Arc::new(Reference::new(scene, rays, query, kernel, sweep.tests));
+        known().insert(key, right.clone());
+        right
     }
 }
 
-/// Brute force's answers to one ray set, each computed once.
-struct References<'a> {
-    sweep: &'a Sweep,
-    scene: &'a Scene,
-    known: BTreeMap<(KernelId, Query, usize), Reference>,
+const QUERIES: [Query; 2] = [Query::Closest, Query::Occluded];
+/// Time for one structure and set, after which fewer rays of it are traced: a grid of which every cell holds
+/// every object would take hours.
+const SET_TIME: Duration = Duration::from_millis(250);
+
+/// The kernel that a structure must agree with.
+fn kernel(choice: &Choice) -> KernelId {
+    KernelId::from_id(choice.kernel()).unwrap_or(KernelId::MollerTrumbore)
 }
 
-impl References<'_> {
-    fn get(&mut self, kernel: KernelId, query: Query, rays: &RaySet) -> &Reference {
-        let make = || Reference::new(self.scene, rays, query, kernel, self.sweep.tests);
-        self.known.entry((kernel, query, rays.len())).or_insert_with(make)
+/// What one structure showed on one scene.
+#[derive(Default)]
+struct Found {
+    rays: u64,
+    differences: u64,
+    findings: Vec<String>,
+    broken: bool,
+}
+
+impl Found {
+    fn broken(&mut self, text: String) {
+        self.broken = true;
+        self.findings.push(text);
     }
 }
 
-#[allow(clippy::too_many_arguments)]
+/// Builds once for every need that the sets have, and compares.
+fn one_choice(sweep: &Sweep, scene: &Scene, choice: &Choice, sets: &[Set]) -> Found {
+    let traits = &choice.entry.traits;
+    let mut found = Found::default();
+    let mut built: Option<(Need, Box<dyn Accel + '_>)> = None;
+    for set in sets {
+        let rays = if traits.thins(&set.set.rays) { &set.thinned } else { &set.set.rays };
+        let raster = matches!(rays, RaySet::Raster(_));
+        if !traits.lists && !raster {
+            continue;
+        }
+        let need = if traits.by_need || !traits.lists { Need::of(rays) } else { Need::GENERAL };
+        let accel = match built.take().filter(|(known, _)| *known == need) {
+            Some((_, accel)) => accel,
+            None => match guard("the build", || choice.builder.build(scene, &need)) {
+                Ok(Ok(accel)) => accel,
+                Ok(Err(BuildError::Unsupported { .. })) => continue,
+                Ok(Err(error)) => {
+                    found.broken(format!("{}: {}: {error}", choice.spec, scene.id));
+                    continue;
+                }
+                Err(error) => {
+                    found.broken(format!("{}: {}: {error}", choice.spec, scene.id));
+                    continue;
+                }
+            },
+        };
+        for query in QUERIES {
+            let rays = match need.raster {
+                Some(_) => Cow::Borrowed(rays),
+                None => in_time(accel.as_ref(), rays, query, SET_TIME),
+            };
+            let place = format!("{}: {} {} {query:?}", choice.spec, scene.id, set.set.id);
+            let right = set.right(sweep, scene, &rays, query, kernel(choice));
+            one_set(choice, accel.as_ref(), &rays, &right, query, &place, &mut found);
+        }
+        built = Some((need, accel));
+    }
+    found
+}
+
 fn one_set(
-    refs: &mut References,
     choice: &Choice,
     accel: &dyn Accel,
     rays: &RaySet,
+    right: &Reference,
     query: Query,
     place: &str,
-    row: usize,
-    tally: &mut Tally,
+    found: &mut Found,
 ) {
-    let kernel = KernelId::from_id(choice.kernel()).unwrap_or(KernelId::MollerTrumbore);
-    let reference = refs.get(kernel, query, rays);
     let mut answers = Answers::new(query, rays.len());
     if let Err(error) = guard("tracing", || answers.trace(accel, rays)) {
-        return broken(tally, format!("{place}: {error}"));
+        return found.broken(format!("{place}: {error}"));
     }
-    let different = compare(&answers, reference);
-    tally.structures[row].rays += reference.numbers.len() as u64;
-    tally.structures[row].differences += different.len() as u64;
+    let different = compare(&answers, right);
+    found.rays += right.numbers.len() as u64;
+    found.differences += different.len() as u64;
     if let (true, Some(first)) = (choice.entry.traits.own_kernel, different.first()) {
         let ray = rays.ray(*first);
-        finding(tally, format!("{place}: {} rays differ, first {first}: {ray:?}", different.len()));
+        found.findings.push(format!("{place}: {} rays differ, first {first}: {ray:?}", different.len()));
     }
-}
-
-fn broken(tally: &mut Tally, text: String) {
-    tally.broken = true;
-    finding(tally, text);
 }
 
 /// Findings are shown to people: not thousands of them.

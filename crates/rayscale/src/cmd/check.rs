@@ -48,13 +48,16 @@ fn plain(console: &Console, selection: &Selection) -> Result<Tally, Error> {
     run(console, &sweep, selection, &registry::defaults())
 }
 
+/// Rows and columns with `--full`: about ten million rays in one pass for a structure with two variants.
+const FULL_SIZE: u32 = 96;
+
 /// The suite's own structures and their variants on the scenes that hunt for errors.
 pub fn full(console: &Console, selection: &Selection) -> Result<Tally, Error> {
     let scenes = if selection.scenes.is_empty() { sweep::hunting() } else { selection.scenes()? };
     let sweep = Sweep {
         scenes,
         rays: selection.rays(&RaysId::ALL)?,
-        size: selection.size.unwrap_or(64),
+        size: selection.size.unwrap_or(FULL_SIZE),
         seed: selection.seed,
         rays_each: 10_000_000,
         tests: 400_000_000,

@@ -8,6 +8,7 @@
 mod build;
 mod guard;
 mod memory;
+mod pace;
 mod scene;
 mod session;
 #[cfg(test)]
@@ -16,6 +17,7 @@ mod trace;
 
 pub use guard::guard;
 pub use memory::{RESOLUTIONS, memory_rows};
+pub use pace::in_time;
 pub use scene::{Job, measure};
 pub use session::{Session, run, workloads};
 
@@ -43,6 +45,8 @@ pub struct Options {
     pub exact_rays: usize,
     /// Box tests in a sample of a structure whose time grows with the number of objects.
     pub linear_tests: u64,
+    /// Time for one sample: a structure that would take longer gets a quarter of the rays, or a sixteenth, …
+    pub sample_time: Duration,
     /// Whether steps are counted.
     pub counters: bool,
 }
@@ -61,6 +65,7 @@ impl Default for Options {
             check_tests: speed * 100_000_000,
             exact_rays: 500,
             linear_tests: 8_000_000,
+            sample_time: Duration::from_secs(4),
             counters: false,
         }
     }

@@ -3,6 +3,7 @@
 use super::Options;
 use super::build::{Built, build_all};
 use super::guard::guard;
+use super::pace::in_time;
 use super::trace::{Runner, rounds};
 use crate::answers::Answers;
 use crate::check::{Reference, compare, judge};
@@ -12,6 +13,7 @@ use crate::registry::Choice;
 use accel::baseline::Brute;
 use accel::exact::Oracle;
 use accel::{Accel, Builder, Counters, Geometry, KernelId, Need, RaySet, Scene};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What is to be measured on a scene.
@@ -111,11 +113,26 @@ fn ray_set(
     let objects = job.scene.geometry.len();
     let few = (job.options.linear_tests / objects.max(1) as u64).max(16) as usize;
     let thinned = thin(&workload.rays, few);
+    let chosen: Vec<Cow<RaySet>> = entrants
+        .iter()
+        .map(|(choice, built)| {
+            if choice.entry.traits.thins(&workload.rays) {
+                return Cow::Borrowed(&thinned);
+            }
+            let raster_only = choice.entry.traits.by_need && matches!(workload.rays, RaySet::Raster(_));
+            match &built.accel {
+                Ok(accel) if !raster_only => {
+                    in_time(accel.as_ref(), &workload.rays, workload.query, job.options.sample_time)
+                }
+                _ => Cow::Borrowed(&workload.rays),
+            }
+        })
+        .collect();
     let mut checked: Vec<(KernelId, usize, Reference)> = Vec::new();
     let mut runners = Vec::new();
     let mut cells = Vec::new();
-    for (choice, built) in entrants {
-        let rays = if choice.entry.traits.thins(&workload.rays) { &thinned } else { &workload.rays };
+    for ((choice, built), rays) in entrants.iter().zip(&chosen) {
+        let rays = rays.as_ref();
         let mut cell = blank(job, workload, choice, built, rays);
         match &built.accel {
             Err(error) => cell.error = Some(error.clone()),

@@ -51,7 +51,9 @@ pub fn run(
     if let Some(most) = session.most_time {
         // Builds, checks and memory take several times as long as the samples.
         let cells = session.scenes.len() * session.rays.len() * choices.len();
-        options.cell_time = options.cell_time.min(most.mul_f64(0.2) / cells.max(1) as u32);
+        let share = most / cells.max(1) as u32;
+        options.cell_time = options.cell_time.min(share.mul_f64(0.2));
+        options.sample_time = options.sample_time.min(share / 2);
         options.build_time = options.build_time.min(4 * options.cell_time);
     }
     for (i, id) in session.scenes.iter().enumerate() {

@@ -8,6 +8,7 @@ use crate::testing;
 use accel::baseline::MinMax;
 use accel::{Accel, BuildError, Builder, Footprint, Hit, KernelId, Need, Ray, RaySet, Scene};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 fn quick() -> Options {
     Options { rounds: 3, build_rounds: 2, ..Options::default() }
@@ -58,6 +59,17 @@ fn linear_structures_get_fewer_rays() {
     let choices = [registry::parse("minmax").unwrap()];
     let cells = cells(&choices, &Options { linear_tests: 400 * 100, ..quick() });
     assert_eq!(cells.iter().map(|c| c.ray_count).collect::<Vec<_>>(), [100, 100, 100]);
+}
+
+#[test]
+fn slow_structures_get_as_many_rays_as_there_is_time_for() {
+    let choices = [registry::parse("brute").unwrap(), registry::parse("ssm").unwrap()];
+    let options = Options { linear_tests: u64::MAX, sample_time: Duration::from_nanos(1), ..quick() };
+    let rays =
+        |options: &Options| -> Vec<u64> { cells(&choices, options).iter().map(|c| c.ray_count).collect() };
+    assert!(rays(&options).chunks(2).all(|two| two[0] > 1000 && (1..=64).contains(&two[1])));
+    let ample = Options { sample_time: Duration::from_secs(1000), ..options };
+    assert!(rays(&ample).iter().all(|n| *n >= 2000), "all rays where time is ample");
 }
 
 /// Right, but for one thing.
