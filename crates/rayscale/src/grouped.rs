@@ -1,7 +1,7 @@
-//! Ratios over cells: rankings and differences. Build time, trace time and memory are never mixed.
+//! Ratios over cells: rankings. Build time, trace time and memory are never mixed.
 
-use crate::record::{Cell, Key, Record};
-use crate::stats::{Interval, geometric_mean, ratio_interval};
+use crate::record::{Cell, Key};
+use crate::stats::geometric_mean;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -126,52 +126,6 @@ pub fn rank<'a>(
     Ok(Ranking { measure, to: to.to_owned(), shared: table.len(), left_out: all - table.len(), places })
 }
 
-/// A cell's change from one record to another.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Change {
-    /// Scene.
-    pub scene: String,
-    /// Ray set.
-    pub rays: String,
-    /// Structure.
-    pub structure: String,
-    /// Threads.
-    pub threads: usize,
-    /// Median of the second over median of the first.
-    pub ratio: f64,
-    /// Bootstrap interval of that ratio at 99 %.
-    pub low: f64,
-    /// As above.
-    pub high: f64,
-    /// Whether the interval leaves out 1, and the medians are apart by more than twice their deviations.
-    pub beyond_noise: bool,
-}
-
-/// Changes of time per ray from record `a` to `b`, over the cells that both have.
-pub fn changes(a: &Record, b: &Record) -> Vec<Change> {
-    let name = |cell: &Cell| (cell.key(), cell.structure.clone(), cell.kernel.clone(), cell.query);
-    let first: BTreeMap<_, &Cell> = a.cells.iter().map(|cell| (name(cell), cell)).collect();
-    let pair = |cell| first.get(&name(cell)).and_then(|first| change(first, cell));
-    b.cells.iter().filter_map(pair).collect()
-}
-
-fn change(a: &Cell, b: &Cell) -> Option<Change> {
-    let (before, after) = (a.ns()?, b.ns()?);
-    let interval = ratio_interval(&b.samples_per_ray(), &a.samples_per_ray(), 0.99, 1000, 1);
-    let interval = interval.unwrap_or(Interval { low: 0.0, high: f64::INFINITY });
-    let deviation = a.ns_per_ray?.mad + b.ns_per_ray?.mad;
-    Some(Change {
-        scene: b.scene.clone(),
-        rays: b.rays.clone(),
-        structure: b.structure.clone(),
-        threads: b.threads,
-        ratio: after / before,
-        low: interval.low,
-        high: interval.high,
-        beyond_noise: !interval.contains(1.0) && (after - before).abs() > 2.0 * deviation,
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,20 +160,5 @@ mod tests {
         assert_eq!(unknown, Err(RankError::NoStructure("x".into())));
         let apart = [testing::cell("one", "r", "a", 1.0), testing::cell("two", "r", "b", 1.0)];
         assert!(matches!(rank(apart.iter(), "a", Measure::Trace), Err(RankError::NothingShared(_))));
-    }
-
-    #[test]
-    fn a_planted_slowdown_is_flagged_and_the_same_record_is_not() {
-        let a = testing::record();
-        let mut b = a.clone();
-        assert!(changes(&a, &b).iter().all(|change| change.ratio == 1.0 && !change.beyond_noise));
-        let slow = &mut b.cells[1];
-        slow.trace_ns.iter_mut().for_each(|ns| *ns = *ns * 115 / 100);
-        slow.summarise();
-        let changes = changes(&a, &b);
-        assert_eq!(changes.len(), a.cells.len() - 1, "a failed cell has no change");
-        let flagged: Vec<_> = changes.iter().filter(|c| c.beyond_noise).collect();
-        assert_eq!(flagged.len(), 1);
-        assert!(flagged[0].structure == "b" && (flagged[0].ratio - 1.15).abs() < 0.01);
     }
 }

@@ -3,7 +3,9 @@
 #![forbid(unsafe_code)]
 
 pub mod answers;
+pub mod changes;
 pub mod check;
+pub mod clock;
 pub mod cmd;
 pub mod exchange;
 pub mod grouped;

@@ -138,6 +138,7 @@ pub fn record() -> Record {
             flush_to_zero: false,
             denormals_are_zero: false,
         },
+        run: None,
         structures: ["a", "b", "c"].map(structure).into(),
         scenes: vec![scene("one", 1000), scene("two", 20_000)],
         cells,

@@ -1,5 +1,7 @@
 //! Times, bytes and counts for people; files hold them raw.
 
+use std::time::Duration;
+
 /// `12.3 ns`, `4.56 ms`, `1.20 s`: three digits that count.
 pub fn time(ns: f64) -> String {
     scaled(ns, 1000.0, &["ns", "µs", "ms", "s"])
@@ -11,6 +13,32 @@ pub fn bytes(bytes: u64) -> String {
         return format!("{bytes} B");
     }
     scaled(bytes as f64, 1024.0, &["B", "KiB", "MiB", "GiB", "TiB"])
+}
+
+/// A duration as people write it: `540` or `540s`, `9m`, `1h30m`, `500ms`.
+///
+/// # Errors
+/// What is none, with an example.
+pub fn duration(text: &str) -> Result<Duration, String> {
+    let wrong = || "must be a duration such as 90s, 10m or 1h30m".to_owned();
+    let mut rest = text.trim();
+    let mut seconds = 0.0;
+    while !rest.is_empty() {
+        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let (number, tail) = rest.split_at(digits);
+        let letters = tail.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(tail.len());
+        let (unit, tail) = tail.split_at(letters);
+        let scale = match unit {
+            "" | "s" => 1.0,
+            "ms" => 1e-3,
+            "m" | "min" => 60.0,
+            "h" => 3600.0,
+            _ => return Err(wrong()),
+        };
+        seconds += scale * number.parse::<f64>().map_err(|_| wrong())?;
+        rest = tail.trim_start();
+    }
+    Duration::try_from_secs_f64(seconds).ok().filter(|d| !d.is_zero()).ok_or_else(wrong)
 }
 
 /// `66,450`
@@ -67,5 +95,17 @@ mod tests {
         assert_eq!(count(66_450), "66,450");
         assert_eq!(count(7), "7");
         assert_eq!(count(1_234_567), "1,234,567");
+    }
+
+    #[test]
+    fn durations_are_read_as_written() {
+        for (text, ms) in
+            [("540", 540_000), ("90s", 90_000), ("1h30m", 5_400_000), ("1m 0.5s", 60_500), ("500ms", 500)]
+        {
+            assert_eq!(duration(text), Ok(Duration::from_millis(ms)), "{text}");
+        }
+        for text in ["", "0", "m", "-1s", "5 parsec", "1..2s", "inf", "1e9", "99999999999999999999s"] {
+            assert!(duration(text).is_err(), "{text}");
+        }
     }
 }

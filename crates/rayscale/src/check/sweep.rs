@@ -2,7 +2,7 @@
 
 use super::{Reference, compare};
 use crate::answers::Answers;
-use crate::measure::{Options, Session, guard, in_time, workloads};
+use crate::measure::{Session, guard, in_time, workloads};
 use crate::rays::RaysId;
 use crate::rayset::{Workload, thin};
 use crate::record::Query;
@@ -113,16 +113,7 @@ pub fn run(sweep: &Sweep, choices: &[Choice], mut tell: impl FnMut(&str)) -> Res
 }
 
 fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally: &mut Tally) {
-    let session = Session {
-        scenes: Vec::new(),
-        rays: sweep.rays.clone(),
-        size: sweep.size,
-        seed,
-        options: Options::default(),
-        memory: false,
-        most_time: None,
-        command: String::new(),
-    };
+    let session = Session { rays: sweep.rays.clone(), size: sweep.size, seed, ..Session::default() };
     let few = (sweep.tests / 16 / scene.geometry.len().max(1) as u64).max(1);
     let few = usize::try_from(few).unwrap_or(usize::MAX);
     // A set that has no rays on this scene (no objects, no hits) is nothing to check.

@@ -1,11 +1,12 @@
 //! `rayscale compare`: check, measure and report.
 
-use super::measure::{Effort, failures, measure};
+use super::measure::{Effort, failures, interrupted, measure};
 use super::selection::Selection;
 use super::{Console, Error, Outcome, Verb, check, report};
 use crate::report::pictures;
 use clap::Args;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Check and measure every structure on the default set, and write a report
 ///
@@ -30,8 +31,8 @@ pub struct Compare {
     out: PathBuf,
 }
 
-/// Seconds that the default set is given.
-const SECONDS: u32 = 540;
+/// Time that the default set is given.
+const TIME: Duration = Duration::from_secs(540);
 /// Rows and columns with `--full`.
 const FULL_SIZE: u32 = 512;
 
@@ -44,11 +45,14 @@ impl Verb for Compare {
             sound = check::full(console, &selection)?.is_sound();
             selection.size = selection.size.or(Some(FULL_SIZE));
         } else {
-            effort.max_seconds = effort.max_seconds.or(Some(SECONDS));
+            effort.time_budget = effort.time_budget.or(Some(TIME));
         }
         std::fs::create_dir_all(&self.out).map_err(|error| Error::io(self.out.display(), error))?;
         let path = self.out.join("record.json");
         let record = measure(console, &selection, &effort, &path)?;
+        if let Some(outcome) = interrupted(console, &record, &path)? {
+            return Ok(outcome);
+        }
         let mut written = vec![path];
         written.extend(report::write(&record, &pictures(&record), &self.out)?);
         let failed = failures(&record);

@@ -30,6 +30,11 @@ impl Console {
         self.global.json
     }
 
+    /// Whether only results and errors are wanted.
+    pub const fn quiet(&self) -> bool {
+        self.global.quiet
+    }
+
     /// `--threads`, if given.
     pub fn threads(&self) -> Option<usize> {
         self.global.threads.map(NonZeroUsize::get)

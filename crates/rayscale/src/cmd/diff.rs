@@ -2,15 +2,17 @@
 
 use super::rank::Filter;
 use super::{Console, Error, Outcome, Verb};
-use crate::grouped::{Change, changes};
+use crate::changes::{Change, changes};
 use crate::record;
+use crate::stats::median;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
 
 /// Show changes of time per ray from one record to another
 ///
-/// Changes beyond noise are marked: those whose bootstrap interval (99 %, over the raw samples) leaves out 1.
+/// Changes beyond noise are marked: those whose interval leaves out 1. It is a bootstrap interval over the raw samples (99 %),
+/// widened by how far the other structures' cells spread and drift between the two records.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale diff before.json after.json
@@ -46,20 +48,33 @@ impl Verb for Diff {
         let all = changes(&before, &after);
         let marked = all.iter().filter(|change| change.beyond_noise).count();
         let mut shown: Vec<&Change> = all.iter().filter(|c| self.all || c.beyond_noise).collect();
-        shown.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+        shown.sort_by(|a, b| b.relative().total_cmp(&a.relative()));
         let mut text = format!("{marked} of {} shared cells changed beyond noise", all.len());
         if before.machine != after.machine {
             text.push_str("\nthe records are from different machines or modes");
         }
+        if let Some(drift) = drift(&all) {
+            let _ = write!(
+                text,
+                "\nall together: {drift:.3} (the machine, or what all share); what follows is relative to the other structures"
+            );
+        }
         for change in &shown {
-            let Change { scene, rays, structure, ratio, low, high, beyond_noise, .. } = change;
+            let Change { scene, rays, structure, low, high, beyond_noise, .. } = change;
+            let ratio = change.relative();
             let mark = if *beyond_noise { "*" } else { " " };
             let _ = write!(text, "\n{mark} {ratio:6.3}  [{low:.3}, {high:.3}]  {scene} {rays} {structure}");
         }
         console.result(&shown, text)?;
-        let slower = |limit: f64| all.iter().any(|c| c.beyond_noise && c.ratio > 1.0 + limit);
+        let slower = |limit: f64| all.iter().any(|c| c.beyond_noise && c.relative() > 1.0 + limit);
         Ok(if self.fail_above.is_some_and(slower) { Outcome::Failed } else { Outcome::Done })
     }
+}
+
+/// The middle of all ratios, if that is more than a few per cent from 1.
+fn drift(all: &[Change]) -> Option<f64> {
+    let ratios: Vec<f64> = all.iter().map(|change| change.ratio).collect();
+    median(&ratios).filter(|ratio| ratio.ln().abs() > 0.03)
 }
 
 #[cfg(test)]

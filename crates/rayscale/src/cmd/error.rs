@@ -1,5 +1,6 @@
 //! What can go wrong at the command line: what, where, and what to do about it.
 
+use crate::measure::{ResumeError, SessionError};
 use crate::near::near;
 use crate::rays::RaysError;
 use crate::record::RecordError;
@@ -52,9 +53,21 @@ pub enum Error {
     /// Rays that can't be made.
     #[error(transparent)]
     Rays(#[from] RaysError),
+    /// A record that can't be gone on with.
+    #[error("this record can't be gone on with: {0}")]
+    Resume(#[from] ResumeError),
     /// A record that can't be read or written.
     #[error(transparent)]
     Record(#[from] RecordError),
+}
+
+impl From<SessionError> for Error {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Scene(error) => error.into(),
+            SessionError::Resume(error) => error.into(),
+        }
+    }
 }
 
 impl Error {
@@ -98,6 +111,10 @@ impl Error {
                 Some("run `cargo xtask setup`, then build again".into())
             }
             Self::Registry(_) => Some("`rayscale structures` lists the settings of each structure".into()),
+            Self::Resume(_) => Some(
+                "give --out another name to begin a new record, or leave out --resume to replace this one"
+                    .into(),
+            ),
             Self::Record(_) | Self::Io { .. } | Self::Rays(_) | Self::Build(_) => None,
         }
     }

@@ -1,11 +1,12 @@
 //! `rayscale measure`: a record.
 
 use super::selection::Selection;
-use super::{Console, Error, Outcome, Verb, command_line};
-use crate::measure::{self, Options, Session};
+use super::{Console, Error, Outcome, Verb, command_line, interrupt};
+use crate::measure::{self, Options, Session, Watch};
 use crate::rays::RaysId;
 use crate::record::{self, Record};
-use crate::registry;
+use crate::registry::{self, Choice};
+use crate::units;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -13,12 +14,14 @@ use std::time::Duration;
 /// Check and measure; write everything to a record
 ///
 /// Structures take turns, round by round. The answers of every sample are checked. One thread builds and
-/// traces unless --threads says otherwise.
+/// traces unless --threads says otherwise. The record is written anew after every ray set: Ctrl-C or worse costs the
+/// one being measured, and --resume goes on.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale measure --out record.json
   rayscale measure --scene small-100k --rays parallel,random --structure embree --structure ssm --out a.json
-  rayscale measure --scene model.obj --counters --out model.json")]
+  rayscale measure --scene model.obj --counters --out model.json
+  rayscale measure --time-budget 10m --out record.json --resume")]
 pub struct Measure {
     #[command(flatten)]
     selection: Selection,
@@ -38,9 +41,12 @@ pub struct Effort {
     /// Most samples of a cell
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=10_000))]
     pub rounds: u16,
-    /// Spend about so long in all: samples get fewer, and scenes that no time is left for are skipped
-    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..))]
-    pub max_seconds: Option<u32>,
+    /// Spend about so long in all, such as 90s or 1h30m: the cells share the time, and what none is left for is skipped
+    #[arg(long, value_name = "DURATION", value_parser = units::duration)]
+    pub time_budget: Option<Duration>,
+    /// Go on with the record if there is one: what is in it stays and is not measured again
+    #[arg(long)]
+    pub resume: bool,
     /// Count steps per ray, in a run of its own
     #[arg(long)]
     pub counters: bool,
@@ -52,6 +58,9 @@ pub struct Effort {
 impl Verb for Measure {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
         let record = measure(console, &self.selection, &self.effort, &self.out)?;
+        if let Some(outcome) = interrupted(console, &record, &self.out)? {
+            return Ok(outcome);
+        }
         let failed = failures(&record);
         let cells = record.cells.len();
         console.result(
@@ -63,7 +72,7 @@ impl Verb for Measure {
     }
 }
 
-/// Measures a selection and writes the record, anew after every scene.
+/// Measures a selection and writes the record, anew after every ray set.
 pub fn measure(
     console: &Console,
     selection: &Selection,
@@ -85,9 +94,10 @@ pub fn measure(
             ..defaults
         },
         memory: !effort.no_memory,
-        most_time: effort.max_seconds.map(|s| Duration::from_secs(s.into())),
-        command: command_line(),
+        watch: Watch::new(interrupt::flag(console)?, effort.time_budget),
+        command: without_resume(&command_line()),
     };
+    let begun = begun(&session, &choices, effort, out)?;
     let steps = session.scenes.len() * session.rays.len();
     let bar = console.bar(steps as u64, "measuring");
     let mut unwritten = None;
@@ -102,7 +112,7 @@ pub fn measure(
                 bar.set_message(line.trim().to_owned());
             }
         };
-        measure::run(&session, &choices, tell, |record| unwritten = record::write(out, record).err())
+        measure::run(&session, &choices, begun, tell, |record| unwritten = record::write(out, record).err())
     })??;
     bar.finish_and_clear();
     // What was measured is shown even where it can't be written; the error comes last.
@@ -110,6 +120,33 @@ pub fn measure(
         record::write(out, &record)?;
     }
     Ok(record)
+}
+
+/// A new record, or the one to go on with.
+fn begun(session: &Session, choices: &[Choice], effort: &Effort, out: &Path) -> Result<Record, Error> {
+    if effort.resume && out.exists() {
+        return Ok(measure::resume(record::read(out)?, session, choices)?);
+    }
+    Ok(measure::begin(session, choices))
+}
+
+/// If the run was interrupted, says what there is and how to go on.
+pub fn interrupted(console: &Console, record: &Record, path: &Path) -> Result<Option<Outcome>, Error> {
+    if record.run.is_none_or(|run| run.complete) {
+        return Ok(None);
+    }
+    let again = without_resume(&command_line()) + " --resume";
+    let cells = record.cells.len();
+    console.result(
+        &serde_json::json!({ "record": path, "cells": cells, "interrupted": true, "resume": again }),
+        format_args!("stopped: {} holds the {cells} cells done by then; to go on:\n{again}", path.display()),
+    )?;
+    Ok(Some(Outcome::Interrupted))
+}
+
+/// A command line as it was before anyone went on with it.
+fn without_resume(command: &str) -> String {
+    command.replace(" --resume", "")
 }
 
 /// A line for each cell that failed for another reason than that the structure doesn't serve it.

@@ -3,7 +3,7 @@
 //! A verb is a `clap::Args` struct that is a [`Verb`]; it is plugged in at three places of this
 //! file: its module, its variant of `Command`, its arm of `Command::verb`.
 //!
-//! Exit codes: 0 done, 1 a check failed, 2 bad usage or input.
+//! Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 130 interrupted.
 
 mod check;
 mod cmp;
@@ -12,6 +12,7 @@ mod completions;
 mod console;
 mod diff;
 mod error;
+mod interrupt;
 mod measure;
 mod paper;
 mod rank;
@@ -115,6 +116,8 @@ pub enum Outcome {
     Done,
     /// What was to be checked is not so: exit code 1.
     Failed,
+    /// The user stopped it; what was done by then is kept: exit code 130.
+    Interrupted,
 }
 
 /// The command line as given.
@@ -135,6 +138,7 @@ pub fn main() -> ExitCode {
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Failed) => ExitCode::from(1),
+        Ok(Outcome::Interrupted) => ExitCode::from(interrupt::EXIT_CODE),
         // Whoever read the output has seen enough, as in `rayscale scenes | head`.
         Err(error) if error.is_closed_pipe() => ExitCode::SUCCESS,
         Err(error) => {

@@ -3,7 +3,7 @@
 use super::selection::Selection;
 use super::{Console, Error, Outcome, Verb};
 use crate::check::judge;
-use crate::measure::{Options, Session, run, workloads};
+use crate::measure::{Options, Session, Watch, begin, run, workloads};
 use crate::rayset::sample;
 use crate::recommend::{Candidate, Recommendation, Wish, rank};
 use crate::record::Record;
@@ -103,7 +103,7 @@ impl Verb for Recommend {
             seed: 1,
             options: quick(console),
             memory: false,
-            most_time: Some(Duration::from_secs(30)),
+            watch: Watch::new(Default::default(), Some(Duration::from_secs(30))),
             command: String::new(),
         };
         console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
@@ -113,7 +113,8 @@ impl Verb for Recommend {
             rays_per_build: self.rays_per_build.map(|n| n as f64),
         };
         let (record, errors) = console.in_pool(1, || {
-            let record = run(&session, &choices, |line| console.note(line), |_| {});
+            let record =
+                run(&session, &choices, begin(&session, &choices), |line| console.note(line), |_| {});
             let errors = if self.max_error.is_some() { errors(&session, &scene) } else { BTreeMap::new() };
             (record, errors)
         })?;

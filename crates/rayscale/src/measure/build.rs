@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::guard::guard;
+use super::watch::Watch;
 use crate::heap;
 use crate::record::Bytes;
 use crate::registry::Choice;
@@ -19,10 +20,26 @@ pub struct Built<'s> {
 }
 
 /// Builds every choice for its need: once watched for memory, then round by round for time.
-pub fn build_all<'s>(scene: &'s Scene, wanted: &[(&Choice, Need)], options: &Options) -> Vec<Built<'s>> {
-    let mut all: Vec<Built> = wanted.iter().map(|(choice, need)| watched(scene, choice, need)).collect();
+///
+/// None if interrupted.
+pub fn build_all<'s>(
+    scene: &'s Scene,
+    wanted: &[(&Choice, Need)],
+    options: &Options,
+    watch: &Watch,
+) -> Option<Vec<Built<'s>>> {
+    let mut all = Vec::new();
+    for (choice, need) in wanted {
+        if watch.interrupted() {
+            return None;
+        }
+        all.push(watched(scene, choice, need));
+    }
     for round in 0..options.build_rounds {
         for place in 0..wanted.len() {
+            if watch.interrupted() {
+                return None;
+            }
             let i = (place + round) % wanted.len();
             let (choice, need) = &wanted[i];
             let built = &mut all[i];
@@ -32,7 +49,7 @@ pub fn build_all<'s>(scene: &'s Scene, wanted: &[(&Choice, Need)], options: &Opt
             }
         }
     }
-    all
+    Some(all)
 }
 
 fn build<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Result<Box<dyn Accel + 's>, String> {

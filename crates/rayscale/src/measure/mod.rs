@@ -9,17 +9,21 @@ mod build;
 mod guard;
 mod memory;
 mod pace;
+mod resume;
 mod scene;
 mod session;
 #[cfg(test)]
 mod tests;
 mod trace;
+mod watch;
 
 pub use guard::guard;
 pub use memory::{RESOLUTIONS, memory_rows};
 pub use pace::in_time;
+pub use resume::{ResumeError, resume};
 pub use scene::{Job, measure};
-pub use session::{Session, run, workloads};
+pub use session::{Session, SessionError, begin, run, workloads};
+pub use watch::Watch;
 
 use accel::simd::Level;
 use std::time::Duration;

@@ -2,11 +2,12 @@
 
 use super::guard::guard;
 use crate::answers::Answers;
+use crate::clock::Clock;
 use crate::rayset::thin;
 use crate::record::Query;
 use accel::{Accel, RaySet};
 use std::borrow::Cow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Rays that a structure is judged by.
 const FEW: usize = 64;
@@ -18,9 +19,10 @@ const FEW: usize = 64;
 pub fn in_time<'a>(accel: &dyn Accel, rays: &'a RaySet, query: Query, time: Duration) -> Cow<'a, RaySet> {
     let few = thin(rays, FEW);
     let mut answers = Answers::new(query, few.len());
+    let clock = Clock::of(rayon::current_num_threads());
     let run = || {
-        let start = Instant::now();
-        guard("tracing", || answers.trace(accel, &few)).map(|()| start.elapsed())
+        let start = clock.now();
+        guard("tracing", || answers.trace(accel, &few)).map(|()| Duration::from_nanos(clock.now() - start))
     };
     let runs: Result<Vec<Duration>, String> = std::iter::repeat_with(run).take(2).collect();
     // A structure that panics is found out where its answers are asked for.

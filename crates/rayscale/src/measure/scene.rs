@@ -5,6 +5,7 @@ use super::build::{Built, build_all};
 use super::guard::guard;
 use super::pace::in_time;
 use super::trace::{Runner, rounds};
+use super::watch::Watch;
 use crate::answers::Answers;
 use crate::check::{Reference, compare, judge};
 use crate::rayset::{Workload, sample, thin};
@@ -14,7 +15,7 @@ use accel::baseline::Brute;
 use accel::exact::Oracle;
 use accel::{Accel, Builder, Counters, Geometry, KernelId, Need, RaySet, Scene};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is to be measured on a scene.
 pub struct Job<'a> {
@@ -26,43 +27,68 @@ pub struct Job<'a> {
     pub choices: &'a [Choice],
     /// How much.
     pub options: &'a Options,
+    /// Cells that are there already, as ray set and structure.
+    pub done: &'a BTreeSet<(String, String)>,
+    /// When to stop.
+    pub watch: &'a Watch,
+}
+
+impl Job<'_> {
+    /// Whether a cell is to be measured: it is served and not there already.
+    pub fn wants(&self, workload: &Workload, choice: &Choice) -> bool {
+        let served = choice.entry.traits.lists || matches!(workload.rays, RaySet::Raster(_));
+        served && !self.done.contains(&(workload.id.clone(), choice.spec.to_string()))
+    }
 }
 
 /// Builds, checks and measures; one cell for every structure and ray set, except lists of rays for
-/// structures that serve none. `progress` is told of every ray set once it is done.
+/// structures that serve none. `keep` gets the cells of every ray set once it is done; no ray set begins after
+/// the watch's end, and one that is interrupted has no cells.
 ///
 /// Runs in the current thread pool.
-pub fn measure(job: &Job, mut progress: impl FnMut(&str)) -> Vec<Cell> {
+pub fn measure(job: &Job, keep: impl FnMut(&Workload, Vec<Cell>)) {
+    // None is an interruption, after which there is nothing to do.
+    let _ = all_ray_sets(job, keep);
+}
+
+fn all_ray_sets(job: &Job, mut keep: impl FnMut(&Workload, Vec<Cell>)) -> Option<()> {
     let mut references = References::new(job);
-    let mut cells = Vec::new();
+    let build = |wanted: &[(&Choice, Need)]| build_all(job.scene, wanted, job.options, job.watch);
+    let missing = |choice: &Choice| job.workloads.iter().any(|w| job.wants(w, choice));
     // Needs that no two ray sets share come one at a time, so that not all builds are held at once.
-    let general: Vec<&Choice> = job.choices.iter().filter(|c| !by_need(c)).collect();
+    let general: Vec<&Choice> = job.choices.iter().filter(|c| !by_need(c) && missing(c)).collect();
     let wanted: Vec<_> = general.iter().map(|c| (*c, need_of_all(c, job))).collect();
-    let built = build_all(job.scene, &wanted, job.options);
-    let lists: Vec<&Choice> = job.choices.iter().filter(|c| by_need(c)).collect();
-    let any_list = job.workloads.iter().any(|w| matches!(w.rays, RaySet::List(_)));
-    let wanted: Vec<_> = lists.iter().filter(|_| any_list).map(|c| (*c, Need::GENERAL)).collect();
-    let for_lists = build_all(job.scene, &wanted, job.options);
+    let built = build(&wanted)?;
+    let is_list = |workload: &&Workload| matches!(workload.rays, RaySet::List(_));
+    let misses_list = |c: &Choice| job.workloads.iter().filter(is_list).any(|w| job.wants(w, c));
+    let lists: Vec<&Choice> = job.choices.iter().filter(|c| by_need(c) && misses_list(c)).collect();
+    let wanted: Vec<_> = lists.iter().map(|c| (*c, Need::GENERAL)).collect();
+    let for_lists = build(&wanted)?;
     for workload in job.workloads {
+        if job.watch.is_over() {
+            return None;
+        }
         let mut entrants: Vec<(&Choice, &Built)> = general.iter().copied().zip(&built).collect();
         let for_raster;
         match workload.rays {
             RaySet::List(_) => entrants.extend(lists.iter().copied().zip(&for_lists)),
             RaySet::Raster(_) => {
                 let need = Need::of(&workload.rays);
-                let wanted: Vec<_> = lists.iter().map(|c| (*c, need)).collect();
-                for_raster = build_all(job.scene, &wanted, job.options);
-                entrants.extend(lists.iter().copied().zip(&for_raster));
+                let of_need = job.choices.iter().filter(|c| by_need(c) && job.wants(workload, c));
+                let wanted: Vec<_> = of_need.map(|c| (c, need)).collect();
+                for_raster = build(&wanted)?;
+                entrants.extend(wanted.iter().map(|(c, _)| *c).zip(&for_raster));
             }
         }
-        entrants
-            .retain(|(choice, _)| choice.entry.traits.lists || matches!(workload.rays, RaySet::Raster(_)));
+        entrants.retain(|(choice, _)| job.wants(workload, choice));
+        if entrants.is_empty() {
+            continue;
+        }
         let place = |choice: &Choice| job.choices.iter().position(|c| std::ptr::eq(c, choice));
         entrants.sort_by_key(|(choice, _)| place(choice));
-        cells.extend(ray_set(job, workload, &entrants, &mut references));
-        progress(&workload.id);
+        keep(workload, ray_set(job, workload, &entrants, &mut references)?);
     }
-    cells
+    Some(())
 }
 
 fn by_need(choice: &Choice) -> bool {
@@ -109,7 +135,7 @@ fn ray_set(
     workload: &Workload,
     entrants: &[(&Choice, &Built)],
     refs: &mut References,
-) -> Vec<Cell> {
+) -> Option<Vec<Cell>> {
     let objects = job.scene.geometry.len();
     let few = (job.options.linear_tests / objects.max(1) as u64).max(16) as usize;
     let thinned = thin(&workload.rays, few);
@@ -132,6 +158,9 @@ fn ray_set(
     let mut runners = Vec::new();
     let mut cells = Vec::new();
     for ((choice, built), rays) in entrants.iter().zip(&chosen) {
+        if job.watch.interrupted() {
+            return None;
+        }
         let rays = rays.as_ref();
         let mut cell = blank(job, workload, choice, built, rays);
         match &built.accel {
@@ -158,7 +187,7 @@ fn ray_set(
         }
         cells.push(cell);
     }
-    rounds(&mut runners, job.options);
+    rounds(&mut runners, job.options, job.watch)?;
     let mut done = runners.into_iter();
     for (cell, (_, built)) in cells.iter_mut().zip(entrants) {
         let Ok(accel) = &built.accel else { continue };
@@ -171,7 +200,7 @@ fn ray_set(
             cell.counters = guard("counting", count).ok().flatten().map(|c| per_ray(&c, runner.rays.len()));
         }
     }
-    cells
+    Some(cells)
 }
 
 fn blank(job: &Job, workload: &Workload, choice: &Choice, built: &Built, rays: &RaySet) -> Cell {

@@ -2,18 +2,22 @@
 
 use super::Options;
 use super::memory::{RESOLUTIONS, memory_rows};
+use super::resume::ResumeError;
 use super::scene::{Job, measure};
+use super::watch::Watch;
+use crate::clock::Clock;
 use crate::machine::Machine;
 use crate::rays::{self, RaysId, RaysSpec};
 use crate::rayset::Workload;
-use crate::record::{FORMAT, Query, Record, SceneEntry, Skipped, Structure, Suite};
+use crate::record::{FORMAT, Query, Record, Run, SceneEntry, Skipped, Structure, Suite};
 use crate::registry::{self, Choice};
 use crate::scene::{self, SceneError, SceneSpec};
 use accel::{Accel, Need, Scene};
-use std::time::{Duration, Instant, SystemTime};
+use std::collections::BTreeSet;
+use std::time::SystemTime;
 
 /// What is to be measured.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Session {
     /// Scenes by name.
     pub scenes: Vec<String>,
@@ -27,50 +31,57 @@ pub struct Session {
     pub options: Options,
     /// Whether memory by resolution is recorded.
     pub memory: bool,
-    /// After so long no new scene begins, what is left is recorded as skipped, and the samples of a cell get
-    /// shorter time.
-    pub most_time: Option<Duration>,
+    /// When to stop. Where time is limited, the cells that are left share what is left of it; after its end no new
+    /// ray set begins, and those are recorded as skipped.
+    pub watch: Watch,
     /// The command as given.
     pub command: String,
 }
 
-/// Measures. `tell` gets a line for every scene and ray set; `keep` gets the record as it is after every
-/// scene, measured or skipped. What can't be done is in the record with its reason.
+/// Why a session ends early.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    /// A scene that is unsound.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A scene that is not what it was when the record was begun.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
+}
+
+/// Measures what `record` lacks, which is a new one ([`begin`]) or one to go on with ([`super::resume`]). `tell` gets
+/// a line for every scene and ray set; `keep` gets the record after every ray set. What can't be done is in
+/// the record with its reason.
+///
+/// An interruption is no error: the record is what is done by then, and says that it is not complete.
 ///
 /// # Errors
-/// A scene that is unsound; scenes that are merely not on this machine are skipped.
+/// A scene that is unsound, or is another than in the record; scenes that are merely not on this machine are skipped.
 pub fn run(
     session: &Session,
     choices: &[Choice],
+    mut record: Record,
     mut tell: impl FnMut(&str),
     mut keep: impl FnMut(&Record),
-) -> Result<Record, SceneError> {
-    let start = Instant::now();
-    let mut record = blank(session, choices);
-    let mut options = session.options.clone();
-    if let Some(most) = session.most_time {
-        // Builds, checks and memory take several times as long as the samples.
-        let cells = session.scenes.len() * session.rays.len() * choices.len();
-        let share = most / cells.max(1) as u32;
-        options.cell_time = options.cell_time.min(share.mul_f64(0.2));
-        options.sample_time = options.sample_time.min(share / 2);
-        options.build_time = options.build_time.min(4 * options.cell_time);
-    }
+) -> Result<Record, SessionError> {
     for (i, id) in session.scenes.iter().enumerate() {
+        if session.watch.interrupted() {
+            return Ok(record);
+        }
         let spec: SceneSpec = id.parse()?;
         let loaded = match scene::load_full(&spec) {
             Ok(loaded) => loaded,
             Err(error) if error.is_unavailable() => {
                 tell(&format!("{id}: skipped: {error}"));
-                record.skipped.push(Skipped { id: id.clone(), reason: error.to_string() });
+                skip(&mut record, id.clone(), error.to_string());
                 keep(&record);
                 continue;
             }
-            Err(error) => return Err(error),
+            Err(error) => return Err(error.into()),
         };
         let scene = &loaded.scene;
-        if session.most_time.is_some_and(|most| start.elapsed() >= most) {
-            record.skipped.push(Skipped { id: scene.id.clone(), reason: "the time was up".to_owned() });
+        if session.watch.is_over() {
+            skip(&mut record, scene.id.clone(), TIME_UP.to_owned());
             keep(&record);
             continue;
         }
@@ -82,25 +93,102 @@ pub fn run(
             crate::units::count(scene.geometry.len() as u64),
             scene.geometry.kind()
         ));
-        record.scenes.push(SceneEntry {
+        let entry = SceneEntry {
             id: scene.id.clone(),
             objects: scene.geometry.len() as u64,
             kind: scene.geometry.kind().to_owned(),
             source: loaded.source.clone(),
             checksum: scene::checksum(&scene.geometry),
-        });
-        let workloads = workloads(session, scene, &mut record.skipped);
-        let job = Job { scene, workloads: &workloads, choices, options: &options };
-        record.cells.extend(measure(&job, |rays| tell(&format!("  {rays}"))));
-        if session.memory {
-            record.memory.extend(memory_rows(scene, &RESOLUTIONS));
-        }
+        };
+        enter(&mut record, entry)?;
+        let options = share_of_time(session, choices, session.scenes.len() - i);
+        one_scene(session, choices, scene, &options, &mut record, &mut tell, &mut keep);
+    }
+    if let Some(run) = record.run.as_mut().filter(|_| !session.watch.interrupted()) {
+        run.complete = true;
         keep(&record);
     }
     Ok(record)
 }
 
-fn blank(session: &Session, choices: &[Choice]) -> Record {
+const TIME_UP: &str = "the time was up";
+
+/// The options for a scene when `scenes` of them are left.
+fn share_of_time(session: &Session, choices: &[Choice], scenes: usize) -> Options {
+    let mut options = session.options.clone();
+    if let Some(left) = session.watch.left() {
+        // Builds, checks and memory take several times as long as the samples.
+        let cells = scenes * session.rays.len() * choices.len();
+        let share = left / cells.max(1) as u32;
+        options.cell_time = options.cell_time.min(share.mul_f64(0.2));
+        options.sample_time = options.sample_time.min(share / 2);
+        options.build_time = options.build_time.min(4 * options.cell_time);
+    }
+    options
+}
+
+/// Says why something is left out, in place of what an earlier run said.
+fn skip(record: &mut Record, id: String, reason: String) {
+    record.skipped.retain(|skipped| skipped.id != id);
+    record.skipped.push(Skipped { id, reason });
+}
+
+/// Enters a scene, unless the record has it; nothing of it counts as left out from here on.
+fn enter(record: &mut Record, entry: SceneEntry) -> Result<(), ResumeError> {
+    let of_scene =
+        |id: &str| id.strip_prefix(&entry.id).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+    record.skipped.retain(|skipped| !of_scene(&skipped.id));
+    match record.scene(&entry.id) {
+        None => record.scenes.push(entry),
+        Some(known) if known.checksum == entry.checksum => {}
+        Some(known) => {
+            return Err(ResumeError::Differs {
+                what: format!("checksum of scene {}", entry.id),
+                before: known.checksum.clone(),
+                now: entry.checksum,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn one_scene(
+    session: &Session,
+    choices: &[Choice],
+    scene: &Scene,
+    options: &Options,
+    record: &mut Record,
+    tell: &mut impl FnMut(&str),
+    keep: &mut impl FnMut(&Record),
+) {
+    let workloads = workloads(session, scene, &mut record.skipped);
+    let here = record.cells.iter().filter(|cell| cell.scene == scene.id && cell.threads == options.threads);
+    let done: BTreeSet<_> = here.map(|cell| (cell.rays.clone(), cell.structure.clone())).collect();
+    let job = Job { scene, workloads: &workloads, choices, options, done: &done, watch: &session.watch };
+    let told = |workload: &Workload| format!("  {}", workload.id);
+    let mut left: Vec<&Workload> =
+        workloads.iter().filter(|w| choices.iter().any(|c| job.wants(w, c))).collect();
+    workloads.iter().filter(|w| !left.contains(w)).for_each(|w| tell(&told(w)));
+    measure(&job, |workload, cells| {
+        record.cells.extend(cells);
+        left.retain(|w| w.id != workload.id);
+        keep(record);
+        tell(&told(workload));
+    });
+    if session.watch.interrupted() {
+        return;
+    }
+    record.skipped.extend(
+        left.iter().map(|w| Skipped { id: format!("{}/{}", scene.id, w.id), reason: TIME_UP.to_owned() }),
+    );
+    if session.memory && !record.memory.iter().any(|row| row.scene == scene.id) {
+        record.memory.extend(memory_rows(scene, &RESOLUTIONS));
+    }
+    keep(record);
+}
+
+/// A record of nothing yet.
+pub fn begin(session: &Session, choices: &[Choice]) -> Record {
     let structure = |choice: &Choice| Structure {
         id: choice.spec.to_string(),
         version: (choice.entry.version)(),
@@ -114,6 +202,15 @@ fn blank(session: &Session, choices: &[Choice]) -> Record {
         command: session.command.clone(),
         suite: Suite::this(),
         machine: Machine::here(),
+        run: Some(Run {
+            size: session.size,
+            seed: session.seed,
+            threads: session.options.threads,
+            clock: Clock::of(session.options.threads),
+            rounds: session.options.rounds,
+            counters: session.options.counters,
+            complete: false,
+        }),
         structures: choices.iter().map(structure).collect(),
         scenes: Vec::new(),
         cells: Vec::new(),

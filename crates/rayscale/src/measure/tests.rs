@@ -30,8 +30,13 @@ fn cells(choices: &[Choice], options: &Options) -> Vec<Cell> {
     let (scene, rays) = testing::cloud(400, 2000);
     let workloads = workloads(rays);
     let mut told = Vec::new();
-    let job = Job { scene: &scene, workloads: &workloads, choices, options };
-    let cells = measure(&job, |id| told.push(id.to_owned()));
+    let (done, watch) = Default::default();
+    let job = Job { scene: &scene, workloads: &workloads, choices, options, done: &done, watch: &watch };
+    let mut cells = Vec::new();
+    measure(&job, |workload, more| {
+        told.push(workload.id.clone());
+        cells.extend(more);
+    });
     assert_eq!(told, ["parallel", "random", "shadow"]);
     cells
 }

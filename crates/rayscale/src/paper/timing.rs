@@ -1,6 +1,7 @@
 //! Interleaved timing of passes.
 
 use super::candidates::quantile;
+use crate::clock::Clock;
 
 /// A pass is repeated until it takes so long: the clock's steps must not show.
 const LEAST_NS: f64 = 200_000.0;
@@ -21,25 +22,12 @@ pub fn medians(rounds: usize, passes: &mut [&mut dyn FnMut(usize)]) -> Vec<f64> 
 }
 
 fn once(repeats: u32, round: usize, pass: &mut &mut dyn FnMut(usize)) -> f64 {
-    let start = now();
+    let clock = Clock::of(1);
+    let start = clock.now();
     for _ in 0..repeats {
         pass(round);
     }
-    (now() - start) / f64::from(repeats)
-}
-
-/// Nanoseconds that this thread has run: what other programs take of the processor doesn't count.
-#[cfg(unix)]
-fn now() -> f64 {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
-    time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
-}
-
-/// Nanoseconds since the first call.
-#[cfg(not(unix))]
-fn now() -> f64 {
-    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
-    START.get_or_init(std::time::Instant::now).elapsed().as_nanos() as f64
+    (clock.now() - start) as f64 / f64::from(repeats)
 }
 
 #[cfg(test)]

@@ -3,11 +3,13 @@
 mod cell;
 mod file;
 mod memory;
+mod run;
 mod suite;
 
 pub use cell::{Bytes, Cell, Check, Errors, Key, Query, Timing};
 pub use file::{RecordError, read, write};
 pub use memory::{Layout, MemoryRow};
+pub use run::Run;
 pub use suite::Suite;
 
 use crate::machine::Machine;
@@ -29,6 +31,9 @@ pub struct Record {
     pub suite: Suite,
     /// Where it ran.
     pub machine: Machine,
+    /// How it was asked for; none in records of old.
+    #[serde(default)]
+    pub run: Option<Run>,
     /// The structures measured, each with its settings.
     pub structures: Vec<Structure>,
     /// Scenes.

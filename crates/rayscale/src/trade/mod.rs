@@ -141,18 +141,13 @@ fn one_scene(
     oracle: &Oracle,
     skipped: &mut Vec<Skipped>,
 ) -> Vec<Row> {
-    let mut session = Session {
-        scenes: Vec::new(),
-        rays: plan.timed.clone(),
-        size: plan.size,
-        seed: plan.seed,
-        options: plan.options.clone(),
-        memory: false,
-        most_time: None,
-        command: String::new(),
-    };
+    let mut session =
+        Session { rays: plan.timed.clone(), size: plan.size, seed: plan.seed, ..Session::default() };
     let timed = workloads(&session, scene, skipped);
-    let cells = measure(&Job { scene, workloads: &timed, choices, options: &plan.options }, |_| ());
+    let (done, watch) = Default::default();
+    let job = Job { scene, workloads: &timed, choices, options: &plan.options, done: &done, watch: &watch };
+    let mut cells = Vec::new();
+    measure(&job, |_, more| cells.extend(more));
     session.rays = JUDGED.to_vec();
     session.size = plan.judged;
     let judged = workloads(&session, scene, skipped);

@@ -5,6 +5,8 @@ mod browser;
 mod common;
 mod diff;
 mod frame;
+mod interruptions;
+mod noise;
 mod pictures;
 mod records;
 mod schema;

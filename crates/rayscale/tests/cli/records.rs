@@ -1,5 +1,6 @@
 //! Records for tests, made up.
 
+use rayscale::clock::Clock;
 use rayscale::machine::Machine;
 use rayscale::record::*;
 
@@ -101,6 +102,15 @@ pub fn large() -> Record {
             flush_to_zero: false,
             denormals_are_zero: false,
         },
+        run: Some(Run {
+            size: 256,
+            seed: 1,
+            threads: 1,
+            clock: Clock::Thread,
+            rounds: 5,
+            counters: false,
+            complete: true,
+        }),
         structures: STRUCTURES.map(structure).into(),
         scenes: SCENES.map(scene).into(),
         cells,

@@ -75,7 +75,7 @@ fn is(value: &Value, name: &str) -> bool {
     }
 }
 
-fn of_record(value: &Value) -> Vec<String> {
+pub fn of_record(value: &Value) -> Vec<String> {
     let schema: Value =
         serde_json::from_str(include_str!("../../../../reports/record.schema.json")).expect("JSON");
     faults(&schema, &schema, value, "")
