@@ -1,8 +1,11 @@
 //! Criterion benches over the registry of `rayscale`: what they share.
 
-use accel::{Accel, Need, RaySet, Scene};
+use accel::{Accel, Hit, Need, RaySet, Scene};
+use criterion::{Criterion, Throughput};
 use rayscale::rays::{RaysId, RaysSpec, generate};
 use rayscale::registry::{self, Choice};
+use std::hint::black_box;
+use std::time::Duration;
 
 /// The small fixed set of scenes.
 pub const SCENES: [&str; 2] = ["small-10k", "bumps-20k"];
@@ -45,4 +48,29 @@ pub fn build<'s>(choice: &Choice, scene: &'s Scene, rays: &RaySet) -> Option<Box
 pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
     pool.install(work)
+}
+
+/// Benches nearest hits of every structure and ray set over [`SCENES`], in rays per second.
+///
+/// # Panics
+/// If a scene has no such rays.
+pub fn trace(c: &mut Criterion, sets: &[RaysId]) {
+    for id in SCENES {
+        let scene = scene(id);
+        for set in sets {
+            let rays = rays(&scene, *set, 128);
+            let mut hits: Vec<Option<Hit>> = vec![None; rays.len()];
+            let mut group = c.benchmark_group(format!("{id}/{set}"));
+            group.throughput(Throughput::Elements(rays.len() as u64));
+            group.sample_size(10);
+            group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+            for choice in structures() {
+                let Some(accel) = build(&choice, &scene, &rays) else { continue };
+                group.bench_function(choice.spec.to_string(), |b| {
+                    on_one_thread(|| b.iter(|| accel.trace(&rays, black_box(&mut hits))));
+                });
+            }
+            group.finish();
+        }
+    }
 }
