@@ -3,7 +3,9 @@
 use super::printed::{OBJECTS, SIDES};
 use super::{Paper, Table, memory};
 use plotters::coord::Shift;
+use plotters::coord::combinators::BindKeyPoints;
 use plotters::prelude::*;
+use std::ops::Range;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), String>;
@@ -14,12 +16,12 @@ type Drawn = Result<(), String>;
 /// What the plotting library says.
 pub fn all(paper: &Paper) -> Result<Vec<(&'static str, String)>, String> {
     let mut plots = vec![
-        ("nu.svg", draw((1100, 800), |area| speed(area, paper))?),
-        ("candidates.svg", draw((700, 450), |area| candidates(area, paper))?),
-        ("memory.svg", draw((1100, 420), |area| memory_ratio(area, paper))?),
+        ("nu.svg", draw((1200, 800), |area| speed(area, paper))?),
+        ("candidates.svg", draw((800, 450), |area| candidates(area, paper))?),
+        ("memory.svg", draw((1300, 420), |area| memory_ratio(area, paper))?),
     ];
     if paper.consistency.is_some() {
-        plots.push(("consistency.svg", draw((700, 400), |area| consistency(area, paper))?));
+        plots.push(("consistency.svg", draw((800, 400), |area| consistency(area, paper))?));
     }
     Ok(plots)
 }
@@ -47,6 +49,9 @@ struct Series {
     marks: bool,
 }
 
+/// Width of the column right of a chart that names its lines.
+const KEY: u32 = 120;
+
 /// A chart with both axes logarithmic.
 fn chart(area: &Area, title: &str, axes: [&str; 2], series: &[Series]) -> Drawn {
     let positive = |v: &f64| *v > 0.0 && v.is_finite();
@@ -55,14 +60,19 @@ fn chart(area: &Area, title: &str, axes: [&str; 2], series: &[Series]) -> Drawn 
         let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(v), h.max(v)));
         if low < high { low / 1.15..high * 1.15 } else { 0.5..2.0 }
     };
-    let mut chart = ChartBuilder::on(area)
+    let axis = |range: Range<f64>| range.clone().log_scale().with_key_points(ticks(&range));
+    let (plot, key) = area.split_horizontally(area.dim_in_pixel().0.saturating_sub(KEY));
+    let mut chart = ChartBuilder::on(&plot)
         .caption(title, ("sans-serif", 18))
         .margin(10)
         .x_label_area_size(38)
         .y_label_area_size(62)
-        .build_cartesian_2d(range(|p| p.0).log_scale(), range(|p| p.1).log_scale())
+        .build_cartesian_2d(axis(range(|p| p.0)), axis(range(|p| p.1)))
         .map_err(text)?;
-    chart.configure_mesh().x_desc(axes[0]).y_desc(axes[1]).draw().map_err(text)?;
+    let label = |v: &f64| v.to_string();
+    let mut mesh = chart.configure_mesh();
+    mesh.x_desc(axes[0]).y_desc(axes[1]).x_label_formatter(&label).y_label_formatter(&label);
+    mesh.draw().map_err(text)?;
     for one in series {
         let color = Palette99::pick(one.color).to_rgba();
         let points = one.points.iter().copied().filter(|(_, y)| positive(y));
@@ -71,19 +81,28 @@ fn chart(area: &Area, title: &str, axes: [&str; 2], series: &[Series]) -> Drawn 
         } else {
             chart.draw_series(LineSeries::new(points, color.stroke_width(2)))
         };
-        let drawn = drawn.map_err(text)?;
-        if !one.name.is_empty() {
-            drawn
-                .label(one.name.as_str())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 14, y)], color.stroke_width(2)));
-        }
+        drawn.map_err(text)?;
     }
-    chart
-        .configure_series_labels()
-        .background_style(WHITE.mix(0.8))
-        .border_style(BLACK.mix(0.3))
-        .draw()
-        .map_err(text)
+    let named = series.iter().filter(|one| !one.name.is_empty());
+    for (one, y) in named.zip((60..).step_by(20)) {
+        let color = Palette99::pick(one.color).to_rgba();
+        let line = PathElement::new([(4, y), (20, y)], color.stroke_width(2));
+        key.draw(&line).map_err(text)?;
+        key.draw(&Text::new(one.name.as_str(), (26, y - 6), ("sans-serif", 12))).map_err(text)?;
+    }
+    Ok(())
+}
+
+/// Where a logarithmic axis is labelled: at 1, 2 and 5 times powers of ten, or at the powers alone where
+/// those would crowd.
+fn ticks(range: &Range<f64>) -> Vec<f64> {
+    let within = |steps: &[f64]| -> Vec<f64> {
+        let powers = (-12..=15).map(|power| 10f64.powi(power));
+        let all = powers.flat_map(|power| steps.iter().map(move |step| step * power));
+        all.filter(|tick| range.contains(tick)).collect()
+    };
+    let fine = within(&[1.0, 2.0, 5.0]);
+    if fine.len() <= 8 { fine } else { within(&[1.0]) }
 }
 
 /// One line of ours and marks of the print for each size.
@@ -155,7 +174,7 @@ fn consistency(area: &Area, paper: &Paper) -> Drawn {
     };
     let series = [
         line("no ray can hit", 0, |r| r.unseen),
-        line("visible at full resolution and lost", 1, |r| r.visible_lost),
+        line("visible and lost", 1, |r| r.visible_lost),
         line("hit first by some ray", 2, |r| r.visible),
     ];
     chart(
@@ -164,4 +183,15 @@ fn consistency(area: &Area, paper: &Paper) -> Drawn {
         ["rows and columns", "objects"],
         &series,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ticks;
+
+    #[test]
+    fn labels_do_not_crowd() {
+        assert_eq!(ticks(&(350.0..7000.0)), [500.0, 1000.0, 2000.0, 5000.0]);
+        assert_eq!(ticks(&(0.3..400_000.0)), [1.0, 10.0, 100.0, 1000.0, 10_000.0, 100_000.0]);
+    }
 }
