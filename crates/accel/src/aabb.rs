@@ -16,6 +16,7 @@ impl Aabb {
     pub const EMPTY: Self = Self { min: Vec3::splat(f32::INFINITY), max: Vec3::splat(f32::NEG_INFINITY) };
 
     /// The smallest box that contains all `points`.
+    #[inline]
     pub fn of_points(points: impl IntoIterator<Item = Vec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::grow)
     }
@@ -55,9 +56,10 @@ impl Aabb {
     /// The box moved outward by `pad` on every side, and at least to the next
     /// float, so that the result contains the exact padded box.
     #[must_use]
+    #[inline]
     pub fn padded(&self, pad: f32) -> Self {
-        let down = |v: f32| (v - pad).next_down();
-        let up = |v: f32| (v + pad).next_up();
+        let down = |v: f32| below(v - pad);
+        let up = |v: f32| -below(-(v + pad));
         Self {
             min: Vec3::new(down(self.min.x), down(self.min.y), down(self.min.z)),
             max: Vec3::new(up(self.max.x), up(self.max.y), up(self.max.z)),
@@ -69,7 +71,7 @@ impl Aabb {
     ///
     /// A direction component of ±0 asks whether the origin lies between the two
     /// planes; 0·∞ therefore never arises.
-    #[inline]
+    #[inline(always)]
     pub fn overlap(&self, origin: Vec3, direction: Vec3) -> Option<(f64, f64)> {
         let mut near = f64::NEG_INFINITY;
         let mut far = f64::INFINITY;
@@ -86,16 +88,33 @@ impl Aabb {
             }
             let inverse = 1.0 / d;
             let (a, b) = (lo * inverse, hi * inverse);
-            near = near.max(a.min(b));
-            far = far.min(a.max(b));
+            let (least, most) = if a < b { (a, b) } else { (b, a) };
+            near = if least > near { least } else { near };
+            far = if most < far { most } else { far };
         }
         (near <= far).then_some((near, far))
     }
 }
 
+/// [`f32::next_down`] of a finite number, without branches.
+#[inline(always)]
+fn below(v: f32) -> f32 {
+    // Mirrored below 0, so that bits are ordered as integers. The zeros are two of them.
+    let mirrored = |bits: i32| bits ^ (bits >> 31 & i32::MAX);
+    let ordered = mirrored(v.to_bits().cast_signed());
+    f32::from_bits(mirrored(ordered - 1 - i32::from(ordered == 0)).cast_unsigned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn below_is_the_next_float_down() {
+        for v in [0.0, -0.0, 1.0, -1.0, 1e-45, -1e-45, f32::MAX, f32::MIN_POSITIVE, 1.5e5, -3.7e-9] {
+            assert_eq!(below(v).to_bits(), v.next_down().to_bits(), "{v}");
+        }
+    }
 
     #[test]
     fn overlap_knows_zero_directions() {

@@ -83,7 +83,7 @@ impl Grid {
     }
 
     /// A coordinate in units of the grid's extent: 0 at its lower side, 1 at its upper.
-    #[inline]
+    #[inline(always)]
     pub fn unit(&self, axis: usize, value: f64) -> f64 {
         (value - f64::from(self.bounds.min[axis])) * self.inverse[axis]
     }
@@ -99,7 +99,7 @@ impl Grid {
     }
 
     /// The part of the ray inside the grid and its own range of t, or `None` where there is none.
-    #[inline]
+    #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> Option<Segment> {
         let (near, far) = self.bounds.overlap(ray.origin, ray.direction)?;
         let t_start = near.max(f64::from(ray.t_min));

@@ -13,6 +13,7 @@ mod footprint;
 pub mod grid;
 pub mod kernel;
 mod memory;
+pub mod morton;
 pub mod objects;
 pub mod packet;
 mod ray;

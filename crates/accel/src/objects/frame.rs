@@ -45,6 +45,7 @@ impl Frame {
         Self { pad, center: bounds.center(), near: 4.0 * bounds.extent().max_element(), scale }
     }
 
+    #[inline(always)]
     pub(super) fn is_near(&self, origin: Vec3) -> bool {
         (origin - self.center).abs().max_element() <= self.near
     }

@@ -2,6 +2,7 @@
 
 mod boxes;
 mod frame;
+mod ids;
 mod one_by_one;
 mod triangles;
 

@@ -1,6 +1,7 @@
 //! Triangles as objects, with the kernel as a parameter.
 
 use super::frame::{Frame, plainly_lawful};
+use super::ids::Ids;
 use super::{BLOCK, Blocks, EMPTY_SLOT, Objects};
 use crate::kernel::{Corners, Kernel, load_corners, store_rows, sub3};
 use crate::packet::{Common, Lanes, NearestPacket, Packet, Vec3Lanes};
@@ -66,8 +67,10 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
         self.mesh.triangles.len()
     }
 
+    #[inline]
     fn bounds(&self, id: u32) -> Aabb {
-        Aabb::of_points(self.corners(id)).padded(self.frame.pad)
+        let [a, b, c] = self.corners(id);
+        Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }.padded(self.frame.pad)
     }
 
     #[inline]
@@ -94,7 +97,7 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
             }
         };
         rows.par_chunks_exact_mut(K::ROWS).zip(order.par_chunks(ROW)).with_min_len(512).for_each(pack);
-        TriangleBlocks { triangles: *self, rows, order: order.to_vec() }
+        TriangleBlocks { triangles: *self, rows, ids: Ids::new(order) }
     }
 }
 
@@ -103,7 +106,7 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
 pub struct TriangleBlocks<'s, K> {
     triangles: Triangles<'s, K>,
     rows: Vec<Row>,
-    order: Vec<u32>,
+    ids: Ids,
 }
 
 impl<K: Kernel> TriangleBlocks<'_, K> {
@@ -116,7 +119,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     #[inline(always)]
     fn corners(&self, group: &[Row], slot: usize) -> Corners {
         let packed = if self.rows_hold_corners() { K::corners(group, slot % ROW) } else { None };
-        packed.unwrap_or_else(|| self.triangles.corners(self.order[slot]))
+        packed.unwrap_or_else(|| self.triangles.corners(self.ids.get(slot)))
     }
 
     /// Whether the corners in the rows, if any, are those of the mesh.
@@ -158,7 +161,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     fn gather<S: Simd>(&self, s: S, first: usize) -> [Vec3Lanes<S>; 3] {
         let mut rows = [[[f32::NAN; ROW]; 3]; 3];
         for lane in 0..S::LANES {
-            let object = self.order.get(first + lane).copied().unwrap_or(EMPTY_SLOT);
+            let object = if first + lane < self.ids.len() { self.ids.get(first + lane) } else { EMPTY_SLOT };
             if object != EMPTY_SLOT {
                 for (corner, rows) in self.triangles.corners(object).iter().zip(&mut rows) {
                     (rows[0][lane], rows[1][lane], rows[2][lane]) = (corner.x, corner.y, corner.z);
@@ -197,7 +200,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             }
             lanes.hit = s.mask(lawful);
         }
-        let object = self.order[slot];
+        let object = self.ids.get(slot);
         if K::ORDERS_TIES {
             self.take_ties(s, object, &mut lanes, &rays.rays, best);
         }
@@ -234,7 +237,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
                 let surface = rows.surface(lane);
                 let corners = self.corners(group, slot);
                 if self.triangles.frame.lawful(&corners, &ray.ray, ray.near, surface.t) {
-                    match found(self.order[slot], surface) {
+                    match found(self.ids.get(slot), surface) {
                         Some(limit) => t_max = limit,
                         None => return,
                     }
@@ -249,12 +252,12 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     type Many<S: Simd> = TrianglePacket<S, K::Many<S>>;
 
     fn bytes(&self) -> usize {
-        crate::vec_bytes(&self.rows) + crate::vec_bytes(&self.order)
+        crate::vec_bytes(&self.rows) + self.ids.bytes()
     }
 
     #[inline]
     fn object(&self, slot: usize) -> u32 {
-        self.order[slot]
+        self.ids.get(slot)
     }
 
     #[inline(always)]

@@ -6,13 +6,6 @@ use accel::objects::BLOCK;
 use accel::{Need, Raster};
 use std::fmt;
 
-/// Objects from which on the whole scene is no longer divided at once: the time of that grows with the
-/// logarithm of their number, and beyond the caches by more.
-const MANY: usize = 4_000_000;
-
-/// Objects in a stretch where there are [`MANY`]; 128 KiB of boxes, which stay in a second-level cache.
-const SHORT_STRETCH: usize = 4096;
-
 /// What is built, and why. A structure for one image has no maps along the image's depth, as its rays need none
 /// (Skala 1993, §6); without an image there are no image maps, without other rays no maps in space.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,14 +54,12 @@ const GENERAL_BLOCK_BYTES: u128 = 224 + 112 + 52 * BLOCK as u128;
 
 fn stretch(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> usize {
     let (stretch, why) = match settings.stretch {
-        Some(stretch) => (stretch, "as set".to_owned()),
-        None if objects > MANY => (SHORT_STRETCH, format!("more than {MANY} objects")),
-        None => (objects, "the whole scene".to_owned()),
+        Some(stretch) => (stretch, "as set"),
+        None => (general::STRETCH, "the default"),
     };
-    let stretch = stretch.next_multiple_of(BLOCK).max(BLOCK);
     reasons.push(format!(
-        "{} blocks of up to {BLOCK} objects with {} slices an axis, cut within {stretch} objects ({why}): the \
-         need names rays of any kind",
+        "{} blocks of up to {BLOCK} objects with {} slices an axis, split by clusters of neighbours down to \
+         {stretch} objects ({why}) and then object by object: the need names rays of any kind",
         objects.div_ceil(BLOCK),
         accel::simd::path::SLICES
     ));

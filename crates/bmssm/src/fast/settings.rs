@@ -1,6 +1,6 @@
 //! What `bmssm` can be told. Every choice of the plan can be overridden.
 
-use crate::raster;
+use crate::{general, raster};
 use accel::KernelId;
 use accel::objects::BLOCK;
 use accel::simd::Level;
@@ -14,7 +14,8 @@ pub struct Settings {
     pub kernel: KernelId,
     /// The instruction set.
     pub simd: Level,
-    /// Objects along a Morton curve within which blocks are cut; `None` leaves it to the plan.
+    /// Objects up to which a part of the scene is split object by object, larger ones by clusters of neighbours;
+    /// `None` leaves it to the plan.
     pub stretch: Option<usize>,
     /// Slices across a tile of an image.
     pub tile: u32,
@@ -40,7 +41,7 @@ impl Settings {
         ("simd", "instruction set"),
         (
             "stretch",
-            "objects within which blocks are cut: auto, or a number; fewer build faster and trace slower",
+            "objects that are split one by one and not by clusters: auto, or 64 to 4096; fewer build faster and trace slower",
         ),
         ("tile", "slices of 4 pixels across a tile of an image, 1 to 16"),
         ("depth_bits", "how much longer than wide a block of an image is, as a power of two, 0 to 8"),
@@ -63,7 +64,7 @@ impl Settings {
                 self.simd = level.ok_or_else(|| none_of(value, Level::here().map(Level::id)))?;
             }
             "stretch" if value == "auto" => self.stretch = None,
-            "stretch" => self.stretch = Some(number(value, BLOCK, usize::MAX / 2)?),
+            "stretch" => self.stretch = Some(number(value, BLOCK, general::MOST_STRETCH)?),
             "tile" => self.tile = number(value, 1, 16)?,
             "depth_bits" => self.depth_bits = number(value, 0, 8)?,
             "apart" => self.apart = number(value, 1, 1 << 16)?,

@@ -1,6 +1,8 @@
 //! The binary maps of one block: a bit per object in each slice (Skala 1993, §2, §5).
 
+use super::item::Item;
 use accel::grid::MARGIN;
+use accel::objects::BLOCK;
 use accel::simd::Simd;
 use accel::simd::path::{Path, SLICES, TRIM};
 
@@ -18,19 +20,6 @@ pub struct UnitBox {
 }
 
 impl UnitBox {
-    /// The box that contains nothing.
-    pub const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
-
-    /// The smallest box that contains both.
-    #[inline]
-    pub fn union(&self, other: &Self) -> Self {
-        let [a, b] = [self, other];
-        Self {
-            min: [0, 1, 2].map(|i| if a.min[i] < b.min[i] { a.min[i] } else { b.min[i] }),
-            max: [0, 1, 2].map(|i| if a.max[i] > b.max[i] { a.max[i] } else { b.max[i] }),
-        }
-    }
-
     /// The box widened by the margin of [`accel::grid`].
     #[inline]
     pub fn widened(&self) -> Self {
@@ -52,22 +41,38 @@ pub struct BlockMaps {
 }
 
 impl BlockMaps {
-    /// Registers boxes by position; `bounds` contains them all.
-    pub fn new(bounds: &UnitBox, objects: impl IntoIterator<Item = UnitBox>) -> Self {
+    /// Of no objects.
+    pub const EMPTY: Self = Self { maps: [[0; SLICES]; 3], origin: [0.0; 3], density: [0.0; 3] };
+
+    /// Registers the boxes of up to 64 objects by position; `bounds` contains them all.
+    #[inline(always)]
+    pub fn new<S: Simd>(s: S, bounds: &UnitBox, objects: &[Item]) -> Self {
         let UnitBox { min: origin, max } = bounds.widened();
         let density = [0, 1, 2].map(|a| SLICES as f32 / (max[a] - origin[a]));
         let mut maps = [[0; SLICES]; 3];
-        for (bit, object) in objects.into_iter().enumerate() {
-            let object = object.widened();
+        // A slot without an object begins behind the last slice and ends before the first.
+        let mut low = [[f32::INFINITY; BLOCK]; 3];
+        let mut high = [[f32::NEG_INFINITY; BLOCK]; 3];
+        for (slot, object) in objects.iter().enumerate() {
+            let UnitBox { min, max } = object.bounds().widened();
             for axis in 0..3 {
-                let slice = |value: f32, margin: f32| {
-                    let position = (value - origin[axis]) * density[axis] + margin;
-                    position.clamp(0.0, (SLICES - 1) as f32) as usize
-                };
-                let (first, last) =
-                    (slice(object.min[axis], -LOCAL_MARGIN), slice(object.max[axis], LOCAL_MARGIN));
-                for word in &mut maps[axis][first..=last] {
-                    *word |= 1 << bit;
+                (low[axis][slot], high[axis][slot]) = (min[axis], max[axis]);
+            }
+        }
+        let last = (SLICES - 1) as f32;
+        for axis in 0..3 {
+            let (origin, density) = (s.splat(origin[axis]), s.splat(density[axis]));
+            let position = |value: S::F| s.mul(s.sub(value, origin), density);
+            for at in (0..objects.len()).step_by(S::LANES) {
+                let margin = s.splat(LOCAL_MARGIN);
+                let first = s.sub(position(s.load(&low[axis][at..])), margin);
+                let first = s.min(first, s.splat(last));
+                let end = s.add(position(s.load(&high[axis][at..])), margin);
+                let end = s.max(end, s.splat(0.0));
+                for (slice, word) in maps[axis].iter_mut().enumerate() {
+                    let begun = s.lt(first, s.splat((slice + 1) as f32));
+                    let there = s.and(begun, s.le(s.splat(slice as f32), end));
+                    *word |= u64::from(s.bits(there)) << at;
                 }
             }
         }
@@ -85,13 +90,10 @@ impl BlockMaps {
         let (from, to) = (self.local(from), self.local(to));
         let way = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
         let size = [way[0].abs(), way[1].abs(), way[2].abs()];
-        let (axis, b, c) = if size[0] >= size[1] && size[0] >= size[2] {
-            (0, 1, 2)
-        } else if size[1] >= size[2] {
-            (1, 2, 0)
-        } else {
-            (2, 0, 1)
-        };
+        // Looked up rather than branched on: which axis it is can't be foreseen.
+        let axis = usize::from(size[1] > size[0]);
+        let axis = if size[2] > size[axis] { 2 } else { axis };
+        let (b, c) = ([1, 2, 0][axis], [2, 0, 1][axis]);
         let begin = if way[axis] < 0.0 { to } else { from };
         let per_slice = if size[axis] > 0.0 { 1.0 / way[axis] } else { 0.0 };
         let path = Path {

@@ -1,6 +1,7 @@
 //! General rays: R & S & T over blocks of objects and blocks of blocks (Skala 1993, §5, and
 //! the hierarchical data structures that its §7 suggests).
 
+mod item;
 mod maps;
 mod order;
 mod split;
@@ -8,21 +9,29 @@ mod trace;
 mod tree;
 
 use accel::grid::Grid;
-use accel::objects::{BLOCK, Blocks, EMPTY_SLOT, Objects};
+use accel::objects::{Blocks, Objects};
 use accel::simd::{Level, Simd, Task};
-use accel::{Aabb, Count, Footprint, Hit, NoCount, Ray, vec_bytes};
-use maps::{BlockMaps, UnitBox};
-use rayon::prelude::*;
-use split::{Item, Shape};
+use accel::{Count, Footprint, Hit, NoCount, Ray, vec_bytes};
+use item::Scene;
+use maps::BlockMaps;
+use order::Order;
+use split::Shape;
 use trace::Stack;
 use tree::Node;
+
+/// Most objects that are split object by object.
+pub const MOST_STRETCH: usize = order::PART;
+
+/// Objects that are split object by object unless told otherwise.
+pub const STRETCH: usize = MOST_STRETCH;
 
 /// How the maps for rays of any kind are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// The instruction set.
     pub simd: Level,
-    /// Objects along a Morton curve within which blocks are cut; all of them at once if there are no more.
+    /// Objects up to which a part of the scene is split object by object, larger ones by clusters of
+    /// neighbours; at most [`MOST_STRETCH`].
     pub stretch: usize,
 }
 
@@ -42,39 +51,13 @@ pub struct General<O: Objects> {
 impl<O: Objects> General<O> {
     /// Builds the maps of all `objects`, in the current rayon pool.
     pub fn new(objects: &O, settings: Settings) -> Self {
-        let Settings { simd, stretch } = settings;
-        let len = objects.len() as u32;
-        let bounds: Vec<Aabb> =
-            (0..len).into_par_iter().with_min_len(4096).map(|id| objects.bounds(id)).collect();
-        let scene = bounds.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
-        let scene = if scene.is_empty() { Aabb::of_points([accel::Vec3::ZERO]) } else { scene };
-        let frame = Grid::new(scene, [1; 3]).expect("one slice is always allowed");
-        let boxes: Vec<UnitBox> =
-            bounds.par_iter().with_min_len(4096).map(|bounds| unit_box(&frame, bounds)).collect();
-        drop(bounds);
-        let extent = scene.extent() / scene.extent().max_element();
-        let shape = Shape { extent: extent.to_array() };
-        let mut items = if boxes.len() > stretch {
-            order::along_curve(&boxes)
-        } else {
-            (0..len).zip(&boxes).map(|(id, bounds)| Item::new(id, bounds)).collect()
-        };
-        drop(boxes);
-        let blocks = order::blocks(&shape, &mut items, stretch);
-        let maps: Vec<BlockMaps> = blocks
-            .par_iter()
-            .with_min_len(64)
-            .map(|block| BlockMaps::new(&block.bounds, items[block.items.clone()].iter().map(Item::bounds)))
-            .collect();
-        let mut order = vec![EMPTY_SLOT; blocks.len() * BLOCK];
-        for (block, slots) in blocks.iter().zip(order.chunks_exact_mut(BLOCK)) {
-            for (slot, item) in slots.iter_mut().zip(&items[block.items.clone()]) {
-                *slot = item.number();
-            }
-        }
+        let simd = settings.simd;
+        let Scene { frame, extent, items, keys } = Scene::new(objects, simd);
+        let shape = Shape { extent };
+        let Order { slots, maps, blocks } = Order::new(&shape, &items, keys, settings);
         drop(items);
-        let nodes = tree::over(&shape, &blocks);
-        Self { frame, maps, nodes, objects: objects.blocks(&order), simd }
+        let nodes = tree::over(&shape, blocks, simd);
+        Self { frame, maps, nodes, objects: objects.blocks(&slots), simd }
     }
 
     /// The nearest hit of each ray.
@@ -99,12 +82,6 @@ impl<O: Objects> General<O> {
             .structure("tree", vec_bytes(&self.nodes))
             .geometry_copy("blocks", self.objects.bytes())
     }
-}
-
-fn unit_box(frame: &Grid, bounds: &Aabb) -> UnitBox {
-    let unit =
-        |corner: accel::Vec3| [0, 1, 2].map(|axis: usize| frame.unit(axis, f64::from(corner[axis])) as f32);
-    UnitBox { min: unit(bounds.min), max: unit(bounds.max) }
 }
 
 struct Closest<'a, O: Objects> {

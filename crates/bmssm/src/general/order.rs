@@ -1,151 +1,256 @@
-//! The order of objects: along a Morton curve, then into blocks of 64 by splits within stretches
-//! of it.
+//! The order of objects: along a Morton curve, split into parts by clusters of neighbours, and the parts
+//! into blocks of 64 object by object.
 
-use super::maps::UnitBox;
-use super::split::{Item, Shape};
-use accel::objects::BLOCK;
+use super::Settings;
+use super::item::{Extremes, Item};
+use super::maps::BlockMaps;
+use super::split::{Divide, Left, Shape};
+use accel::morton;
+use accel::objects::{BLOCK, EMPTY_SLOT};
+use accel::simd::{Level, Simd, Task};
 use rayon::prelude::*;
-use std::ops::Range;
 
-/// A block: its objects in the order of items, and their box.
-#[derive(Clone, Debug)]
-pub struct Block {
-    /// Which items.
-    pub items: Range<usize>,
-    /// The box of all of them.
-    pub bounds: UnitBox,
+/// The objects in order, block by block.
+pub struct Order {
+    /// The object of each slot.
+    pub slots: Vec<u32>,
+    /// The maps of each block.
+    pub maps: Vec<BlockMaps>,
+    /// The box of each block.
+    pub blocks: Vec<Item>,
 }
 
-/// Bits of a Morton key for each axis.
-const BITS: u32 = 11;
-
-/// Sorts boxes along the curve of their centres (G. M. Morton, 1966).
-pub fn along_curve(boxes: &[UnitBox]) -> Vec<Item> {
-    let mut keys: Vec<(u64, u32)> =
-        boxes.par_iter().with_min_len(4096).zip(0..boxes.len() as u32).map(|(b, id)| (key(b), id)).collect();
-    radix_sort(&mut keys);
-    keys.par_iter().with_min_len(4096).map(|(_, id)| Item::new(*id, &boxes[*id as usize])).collect()
-}
-
-fn key(bounds: &UnitBox) -> u64 {
-    let cell = |axis: usize| {
-        let center = 0.5 * (bounds.min[axis] + bounds.max[axis]);
-        spread((center * (1 << BITS) as f32).clamp(0.0, ((1 << BITS) - 1) as f32) as u64)
-    };
-    cell(0) | cell(1) << 1 | cell(2) << 2
-}
-
-/// Puts two zero bits between all bits.
-fn spread(v: u64) -> u64 {
-    let v = (v | v << 32) & 0x001f_0000_0000_ffff;
-    let v = (v | v << 16) & 0x001f_0000_ff00_00ff;
-    let v = (v | v << 8) & 0x100f_00f0_0f00_f00f;
-    let v = (v | v << 4) & 0x10c3_0c30_c30c_30c3;
-    (v | v << 2) & 0x1249_2492_4924_9249
-}
-
-/// Least digits first, all digits counted in one pass.
-fn radix_sort(keys: &mut Vec<(u64, u32)>) {
-    const DIGIT: u32 = 11;
-    const DIGITS: usize = (3 * BITS).div_ceil(DIGIT) as usize;
-    const VALUES: usize = 1 << DIGIT;
-    let digit = |key: u64, of: usize| (key >> (DIGIT * of as u32)) as usize & (VALUES - 1);
-    let mut counts = vec![[0u32; VALUES]; DIGITS];
-    for (key, _) in &*keys {
-        for (of, counts) in counts.iter_mut().enumerate() {
-            counts[digit(*key, of)] += 1;
-        }
-    }
-    let mut sorted = vec![(0, 0); keys.len()];
-    for (of, counts) in counts.iter_mut().enumerate() {
+impl Order {
+    /// Orders objects with these boxes and keys.
+    pub fn new(shape: &Shape, boxes: &[Item], keys: Vec<u64>, settings: Settings) -> Self {
+        let keys = morton::sort_by_key(keys);
+        let mut clusters = clusters(boxes, &keys);
+        let mut scratch = clusters.clone();
+        let parts = split(shape, &mut clusters, &mut scratch, settings.simd);
+        let blocks = |part: &Part| part.objects.div_ceil(BLOCK);
+        let all = parts.iter().map(blocks).sum();
+        let mut order = Self {
+            slots: vec![EMPTY_SLOT; all * BLOCK],
+            maps: vec![BlockMaps::EMPTY; all],
+            blocks: vec![Item::EMPTY; all],
+        };
+        let mut rooms = Vec::with_capacity(parts.len());
+        let (mut slots, mut maps, mut boxed) =
+            (&mut order.slots[..], &mut order.maps[..], &mut order.blocks[..]);
         let mut first = 0;
-        for count in counts.iter_mut() {
-            first += std::mem::replace(count, first);
+        for part in parts {
+            let n = blocks(&part);
+            let room = Room {
+                first,
+                slots: slots.split_off_mut(..n * BLOCK).expect("room for all"),
+                maps: maps.split_off_mut(..n).expect("room for all"),
+                blocks: boxed.split_off_mut(..n).expect("room for all"),
+            };
+            first += n as u32;
+            rooms.push((part, room));
         }
-        for entry in &*keys {
-            let place = &mut counts[digit(entry.0, of)];
-            sorted[*place as usize] = *entry;
-            *place += 1;
+        rooms.into_par_iter().for_each_init(Buffers::default, |buffers, (part, room)| {
+            settings.simd.run(Cut {
+                shape,
+                boxes,
+                keys: &keys,
+                part,
+                room,
+                buffers,
+                stretch: settings.stretch,
+            });
+        });
+        order
+    }
+}
+
+/// Objects that a cluster has on average, at most.
+const CLUSTER: usize = 8;
+/// Objects that a cluster has at most.
+const MOST: usize = 16;
+
+/// Runs of neighbours along the curve that share a cell: the number of the first, and how many there are.
+fn clusters(boxes: &[Item], keys: &[u64]) -> Vec<Item> {
+    // How many runs there are with cells of each size, by the highest bit in which neighbours differ.
+    let mut differ = [0usize; 33];
+    for pair in keys.windows(2) {
+        differ[32 - ((pair[0] ^ pair[1]) >> 32 << 32).leading_zeros().min(32) as usize] += 1;
+    }
+    let mut runs = 1;
+    let mut bit = 32;
+    while bit > 0 && runs + differ[bit] <= keys.len() / CLUSTER {
+        runs += differ[bit];
+        bit -= 1;
+    }
+    // Bits from `bit` on are the cell.
+    let cell = |key: u64| key >> 32 >> bit;
+    let mut clusters = Vec::with_capacity(runs + keys.len() / MOST + 1);
+    let mut first = 0;
+    while first < keys.len() {
+        let here = cell(keys[first]);
+        let mut range = Extremes::NONE;
+        let mut end = first;
+        while end < keys.len() && end < first + MOST && cell(keys[end]) == here {
+            range.gather(&boxes[keys[end] as u32 as usize].extremes());
+            end += 1;
         }
-        std::mem::swap(keys, &mut sorted);
+        clusters.push(Item::new(first as u32, (end - first) as u32, &range.bounds()));
+        first = end;
     }
+    clusters
 }
 
-/// From this many items on the two parts are cut by two threads.
-const PARALLEL: usize = 1 << 13;
-
-/// Reorders the items within each stretch of so many, and cuts them into blocks, full but for a stretch's last.
-///
-/// One stretch over all items gives the best blocks; shorter ones are cut faster, as they stay in cache.
-pub fn blocks(shape: &Shape, items: &mut [Item], stretch: usize) -> Vec<Block> {
-    let stretch = stretch.min(items.len()).next_multiple_of(BLOCK).max(BLOCK);
-    let cut = |(number, items): (usize, &mut [Item])| cut(shape, items, number * stretch);
-    items.par_chunks_mut(stretch).enumerate().flat_map_iter(cut).collect()
+/// Objects that are put into blocks by one task.
+struct Part<'c> {
+    clusters: &'c mut [Item],
+    objects: usize,
 }
 
-fn cut(shape: &Shape, items: &mut [Item], first: usize) -> Vec<Block> {
-    let len = items.len();
-    if len < PARALLEL {
-        let mut blocks = Vec::with_capacity(len.div_ceil(BLOCK) + 1);
-        cut_here(shape, items, first, &mut blocks);
-        return blocks;
+/// Objects in a part, at most. All its blocks are full but the last.
+pub const PART: usize = 64 * BLOCK;
+
+/// From this many clusters on the two parts are split by two threads.
+const PARALLEL: usize = 1 << 12;
+
+fn split<'c>(shape: &Shape, clusters: &'c mut [Item], scratch: &mut [Item], simd: Level) -> Vec<Part<'c>> {
+    let objects = clusters.iter().map(|cluster| cluster.weight() as usize).sum();
+    if objects <= PART || clusters.len() == 1 {
+        return vec![Part { clusters, objects }];
     }
-    let at = shape.divide(items, BLOCK);
-    let (left, right) = items.split_at_mut(at);
-    let (mut left, right) = rayon::join(|| cut(shape, left, first), || cut(shape, right, first + at));
-    left.extend(right);
-    left
+    let left = Left::Packed(BLOCK);
+    let at = simd.run(Divide { shape, items: &mut *clusters, scratch: &mut *scratch, left });
+    let parallel = clusters.len() >= PARALLEL;
+    let (left, right) = clusters.split_at_mut(at);
+    let (left_scratch, right_scratch) = scratch.split_at_mut(at);
+    let (mut parts, rest) = if parallel {
+        rayon::join(|| split(shape, left, left_scratch, simd), || split(shape, right, right_scratch, simd))
+    } else {
+        (split(shape, left, left_scratch, simd), split(shape, right, right_scratch, simd))
+    };
+    parts.extend(rest);
+    parts
 }
 
-fn cut_here(shape: &Shape, items: &mut [Item], first: usize, blocks: &mut Vec<Block>) {
-    if items.len() <= BLOCK {
-        arrange(items);
-        blocks.push(Block { items: first..first + items.len(), bounds: shape.bounds_of(items) });
-        return;
-    }
-    let at = shape.divide(items, BLOCK);
-    let (left, right) = items.split_at_mut(at);
-    cut_here(shape, left, first, blocks);
-    cut_here(shape, right, first + at, blocks);
+/// Where a part's blocks go.
+struct Room<'o> {
+    /// The first block's number.
+    first: u32,
+    slots: &'o mut [u32],
+    maps: &'o mut [BlockMaps],
+    blocks: &'o mut [Item],
 }
 
-/// Orders the items of a block so that neighbours in space share groups of 16.
-fn arrange(items: &mut [Item]) {
-    let len = items.len();
-    if len <= 16 {
-        return;
+/// What a thread keeps from part to part.
+#[derive(Default)]
+struct Buffers {
+    items: Vec<Item>,
+    scratch: Vec<Item>,
+    open: Vec<(usize, usize)>,
+}
+
+/// Splits one part into blocks.
+struct Cut<'a, 'o> {
+    shape: &'a Shape,
+    boxes: &'a [Item],
+    keys: &'a [u64],
+    part: Part<'a>,
+    room: Room<'o>,
+    buffers: &'a mut Buffers,
+    stretch: usize,
+}
+
+impl Task for Cut<'_, '_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) {
+        let Self { shape, boxes, keys, part, room, buffers, stretch } = self;
+        let Buffers { items, scratch, open } = buffers;
+        let Part { clusters, objects } = part;
+        scratch.resize(scratch.len().max(PART), Item::EMPTY);
+        items.clear();
+        open.clear();
+        // By clusters, as far as wanted. What is left over of a block belongs to the next stretch.
+        let mut stretches = Vec::with_capacity(PART / BLOCK + 2);
+        stretches.push(0);
+        open.push((0, clusters.len()));
+        while let Some((first, end)) = open.pop() {
+            let clusters = &mut clusters[first..end];
+            let weight: usize = clusters.iter().map(|cluster| cluster.weight() as usize).sum();
+            if weight <= stretch || clusters.len() == 1 {
+                for cluster in &*clusters {
+                    let first = cluster.number() as usize;
+                    for key in &keys[first..first + cluster.weight() as usize] {
+                        items.push(boxes[*key as u32 as usize]);
+                    }
+                }
+                let so_far = items.len() / BLOCK * BLOCK;
+                if stretches.last().is_some_and(|last| *last < so_far) {
+                    stretches.push(so_far);
+                }
+            } else {
+                let middle = first + shape.divide(clusters, scratch, Left::Packed(BLOCK));
+                open.push((middle, end));
+                open.push((first, middle));
+            }
+        }
+        if stretches.last().is_some_and(|last| *last < objects) {
+            stretches.push(objects);
+        }
+        open.extend(stretches.windows(2).rev().map(|pair| (pair[0], pair[1])));
+        let mut at = 0;
+        while let Some((first, end)) = open.pop() {
+            let items = &mut items[first..end];
+            if items.len() <= BLOCK {
+                let bounds = Extremes::of(items).bounds();
+                room.maps[at] = BlockMaps::new(s, &bounds, items);
+                room.blocks[at] = Item::new(room.first + at as u32, 1, &bounds);
+                for (slot, item) in room.slots[at * BLOCK..].iter_mut().zip(&*items) {
+                    *slot = item.number();
+                }
+                at += 1;
+            } else {
+                let middle = first + shape.divide(items, scratch, Left::Whole(BLOCK));
+                open.push((middle, end));
+                open.push((first, middle));
+            }
+        }
     }
-    let half = if len > 32 { 32 } else { 16 };
-    let axis = Shape::longest_axis(items);
-    items.select_nth_unstable_by(half, |a, b| a.center(axis).total_cmp(&b.center(axis)));
-    let (left, right) = items.split_at_mut(half);
-    arrange(left);
-    arrange(right);
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::maps::UnitBox;
     use super::*;
 
-    #[test]
-    fn the_radix_sort_sorts() {
-        let mut state = 3u64;
-        let mut keys: Vec<(u64, u32)> = (0..5000)
-            .map(|id| {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                (state >> 31, id)
-            })
-            .collect();
-        let mut reference = keys.clone();
-        reference.sort();
-        radix_sort(&mut keys);
-        assert_eq!(keys, reference);
+    fn point(number: u32, at: [f32; 3]) -> Item {
+        Item::new(number, 1, &UnitBox { min: at, max: at })
     }
 
     #[test]
-    fn keys_interleave_the_axes() {
-        assert_eq!(spread(0b111), 0b1_001_001);
-        let corner = UnitBox { min: [1.0; 3], max: [1.0; 3] };
-        assert_eq!(key(&corner), (1 << (3 * BITS)) - 1);
+    fn clusters_are_runs_of_all_objects() {
+        let boxes: Vec<Item> = (0..5000u32).map(|i| point(i, [i as f32 / 5000.0, 0.0, 0.0])).collect();
+        let keys: Vec<u64> = (0..5000).map(|i| morton::keyed(i / 5 * 8, i)).collect();
+        let clusters = clusters(&boxes, &keys);
+        let mut next = 0;
+        for cluster in &clusters {
+            assert_eq!(cluster.number(), next);
+            assert!((1..=MOST as u32).contains(&cluster.weight()));
+            next += cluster.weight();
+        }
+        assert_eq!(next, 5000);
+        assert!(clusters.len() < 5000 / 4, "{}", clusters.len());
+    }
+
+    #[test]
+    fn coinciding_objects_are_ordered_too() {
+        let boxes: Vec<Item> = (0..9000).map(|i| point(i, [0.5; 3])).collect();
+        let keys = (0..9000).map(|i| morton::keyed(7, i)).collect();
+        let settings = Settings { simd: Level::Portable, stretch: 128 };
+        let order = Order::new(&Shape { extent: [1.0; 3] }, &boxes, keys, settings);
+        assert_eq!(order.blocks.len(), order.maps.len());
+        let mut slots: Vec<u32> = order.slots.into_iter().filter(|slot| *slot != EMPTY_SLOT).collect();
+        slots.sort_unstable();
+        assert!(slots.into_iter().eq(0..9000));
     }
 }

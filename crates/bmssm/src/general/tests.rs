@@ -1,5 +1,7 @@
 use super::*;
+use accel::Aabb;
 use accel::baseline::Brute;
+use accel::objects::{BLOCK, EMPTY_SLOT};
 use accel::{Builder, Geometry, KernelId, Mesh, Need, RaySet, Scene, Vec3, View, WithObjects};
 use proptest::prelude::*;
 
@@ -87,7 +89,7 @@ fn assert_no_differences(geometry: Geometry, rays: &[Ray]) -> usize {
         brute.trace(&RaySet::List(rays.to_vec()), &mut reference);
         hits = reference.iter().flatten().count();
         for simd in Level::here() {
-            for stretch in [512, usize::MAX / 2] {
+            for stretch in [128, MOST_STRETCH] {
                 let differences = scene.with_objects(kernel, Differences(rays, &reference, simd, stretch));
                 assert_eq!(differences, 0, "{kernel} {simd:?} {stretch}");
             }
@@ -148,7 +150,7 @@ fn the_tree_holds_every_object_once_and_full_blocks() {
     impl<'s> WithObjects<'s> for Slots {
         type Out = (Vec<u32>, usize);
         fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
-            let maps = General::new(&objects, Settings { simd: Level::Portable, stretch: 1 << 12 });
+            let maps = General::new(&objects, Settings { simd: Level::Portable, stretch: MOST_STRETCH });
             let slots = (0..maps.maps.len() * BLOCK).map(|slot| maps.objects.object(slot));
             (slots.filter(|object| *object != EMPTY_SLOT).collect(), maps.maps.len())
         }

@@ -52,22 +52,48 @@ struct Waiting {
     what: u32,
 }
 
+impl Waiting {
+    const NONE: Self = Self { enter: 0.0, exit: 0.0, what: 0 };
+}
+
 /// What waits to be visited, the nearest on top; kept from ray to ray.
-#[derive(Default)]
-pub(super) struct Stack(Vec<Waiting>);
+pub(super) struct Stack {
+    slots: Vec<Waiting>,
+    len: usize,
+}
+
+impl Default for Stack {
+    fn default() -> Self {
+        Self { slots: vec![Waiting::NONE; 16 * WIDTH], len: 0 }
+    }
+}
 
 impl Stack {
-    /// Puts an entry among those from `base` on, which stay sorted.
+    /// Room on top for the children of a node.
     #[inline(always)]
-    fn insert(&mut self, base: usize, entry: Waiting) {
-        self.0.push(entry);
-        let tail = &mut self.0[base..];
-        let mut place = tail.len() - 1;
-        while place > 0 && tail[place - 1].enter < entry.enter {
-            tail[place] = tail[place - 1];
-            place -= 1;
+    fn room(&mut self) -> &mut [Waiting; WIDTH] {
+        if self.slots.len() < self.len + WIDTH {
+            self.grow();
         }
-        tail[place] = entry;
+        self.slots[self.len..].first_chunk_mut().expect("room was made")
+    }
+
+    #[cold]
+    fn grow(&mut self) {
+        self.slots.resize(2 * self.slots.len(), Waiting::NONE);
+    }
+
+    /// The next that begins no later than `limit`.
+    #[inline(always)]
+    fn pop(&mut self, limit: f32) -> Option<Waiting> {
+        while self.len > 0 {
+            self.len -= 1;
+            let next = self.slots[self.len];
+            if next.enter <= limit {
+                return Some(next);
+            }
+        }
+        None
     }
 }
 
@@ -91,21 +117,23 @@ impl<O: Objects> General<O> {
         let way = Way::new(&segment);
         let prepared = self.objects.one(ray);
         let mut limit = 1.0 + 4.0 * accel::grid::MARGIN as f32;
-        stack.0.clear();
-        stack.0.push(Waiting { enter: 0.0, exit: 1.0, what: 0 });
-        while let Some(Waiting { enter, exit, what }) = stack.0.pop() {
-            if enter > limit {
+        stack.len = 0;
+        let mut next = Some(Waiting { enter: 0.0, exit: 1.0, what: 0 });
+        while let Some(Waiting { enter, exit, what }) = next {
+            if what & Node::BLOCK == 0 {
+                count.cells(1);
+                next = match nearest_child(s, &self.nodes[what as usize], &way, limit, stack) {
+                    None => stack.pop(limit),
+                    child => child,
+                };
                 continue;
             }
             let exit = if exit < limit { exit } else { limit };
-            if what & Node::BLOCK != 0 {
-                let block = (what & !Node::BLOCK) as usize;
-                count.blocks(1);
-                let candidates = self.maps[block].candidates(s, way.at(enter), way.at(exit));
+            let block = (what & !Node::BLOCK) as usize;
+            count.blocks(1);
+            let candidates = self.maps[block].candidates(s, way.at(enter), way.at(exit));
+            if candidates != 0 {
                 count.candidates(u64::from(candidates.count_ones()));
-                if candidates == 0 {
-                    continue;
-                }
                 count.tests(u64::from(candidates.count_ones()));
                 if ANY {
                     if self.objects.any(s, block, candidates, &prepared, ray.t_max) {
@@ -119,19 +147,18 @@ impl<O: Objects> General<O> {
                         limit = segment.limit(best.t);
                     }
                 }
-            } else {
-                count.cells(1);
-                push(s, &self.nodes[what as usize], &way, limit, stack);
             }
+            next = stack.pop(limit);
         }
         best
     }
 }
 
-/// Puts the children whose boxes the ray meets on the stack, the nearest on top.
+/// The nearest child whose box the ray meets; the others go on the stack, the nearest on top.
 #[inline(always)]
-fn push<S: Simd>(s: S, node: &Node, way: &Way, limit: f32, stack: &mut Stack) {
-    let base = stack.0.len();
+fn nearest_child<S: Simd>(s: S, node: &Node, way: &Way, limit: f32, stack: &mut Stack) -> Option<Waiting> {
+    let (mut enters, mut exits) = ([0.0; ROW], [0.0; ROW]);
+    let mut met = 0;
     for at in (0..WIDTH).step_by(S::LANES) {
         let mut enter = s.splat(0.0);
         let mut exit = s.splat(limit);
@@ -141,18 +168,39 @@ fn push<S: Simd>(s: S, node: &Node, way: &Way, limit: f32, stack: &mut Stack) {
             enter = s.max(enter, s.mul(s.sub(s.load(&node.boxes[near].0[at..]), start), inverse));
             exit = s.min(exit, s.mul(s.sub(s.load(&node.boxes[far].0[at..]), start), inverse));
         }
-        let mut met = s.bits(s.le(enter, exit));
-        if met == 0 {
-            continue;
-        }
-        let (mut enters, mut exits) = ([0.0; ROW], [0.0; ROW]);
-        s.store(enter, &mut enters);
-        s.store(exit, &mut exits);
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize & (ROW - 1);
-            met &= met - 1;
-            let what = node.children[(at + lane) & (WIDTH - 1)];
-            stack.insert(base, Waiting { enter: enters[lane], exit: exits[lane], what });
-        }
+        met |= s.bits(s.le(enter, exit)) << at;
+        s.store(enter, &mut enters[at..]);
+        s.store(exit, &mut exits[at..]);
     }
+    let child = |met: u32| {
+        let lane = met.trailing_zeros() as usize & (WIDTH - 1);
+        Waiting { enter: enters[lane], exit: exits[lane], what: node.children[lane] }
+    };
+    if met == 0 {
+        return None;
+    }
+    let mut nearest = child(met);
+    met &= met - 1;
+    if met == 0 {
+        return Some(nearest);
+    }
+    // The farthest first; what comes nearer than all so far takes the place of the nearest.
+    let room = stack.room();
+    let mut len = 0;
+    while met != 0 {
+        let mut other = child(met);
+        met &= met - 1;
+        if other.enter < nearest.enter {
+            (other, nearest) = (nearest, other);
+        }
+        let mut place = len & (WIDTH - 1);
+        while place > 0 && room[place - 1].enter < other.enter {
+            room[place] = room[place - 1];
+            place -= 1;
+        }
+        room[place] = other;
+        len += 1;
+    }
+    stack.len += len;
+    Some(nearest)
 }

@@ -3,10 +3,10 @@
 //! A level of maps of its own would be the paper's way once more (a bit per block), but boxes, which
 //! there are few of, sort out sixteen children in one go and say where the ray enters each.
 
+use super::item::{Extremes, Item};
 use super::maps::UnitBox;
-use super::order::Block;
-use super::split::{Item, Shape};
-use accel::simd::{ROW, Row};
+use super::split::{Divide, Left, Shape};
+use accel::simd::{Level, ROW, Row};
 
 /// Most children of a node.
 pub const WIDTH: usize = ROW;
@@ -50,19 +50,18 @@ struct Part<'i> {
     bounds: UnitBox,
 }
 
-/// The tree over blocks; the root is the first node. Empty where there is no block.
-pub fn over(shape: &Shape, blocks: &[Block]) -> Vec<Node> {
-    let mut items: Vec<Item> =
-        (0..).zip(blocks).map(|(number, block)| Item::new(number, &block.bounds)).collect();
+/// The tree over blocks, given by their boxes and numbers; the root is the first node. Empty where there is no block.
+pub fn over(shape: &Shape, mut blocks: Vec<Item>, simd: Level) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(blocks.len().div_ceil(WIDTH / 2));
     if blocks.is_empty() {
         return nodes;
     }
+    let mut scratch = blocks.clone();
     nodes.push(Node::EMPTY);
-    let bounds = shape.bounds_of(&items);
-    let mut open = vec![(0, Part { items: &mut items, bounds })];
+    let bounds = Extremes::of(&blocks).bounds();
+    let mut open = vec![(0, Part { items: &mut blocks, bounds })];
     while let Some((index, part)) = open.pop() {
-        for (lane, part) in children(shape, part).into_iter().enumerate() {
+        for (lane, part) in children(shape, part, &mut scratch, simd).into_iter().enumerate() {
             let what =
                 if let [block] = *part.items { Node::BLOCK | block.number() } else { nodes.len() as u32 };
             nodes[index].set(lane, &part.bounds, what);
@@ -77,7 +76,7 @@ pub fn over(shape: &Shape, blocks: &[Block]) -> Vec<Node> {
 }
 
 /// Splits the part of the largest surface until there are enough children.
-fn children<'i>(shape: &Shape, part: Part<'i>) -> Vec<Part<'i>> {
+fn children<'i>(shape: &Shape, part: Part<'i>, scratch: &mut [Item], simd: Level) -> Vec<Part<'i>> {
     let mut parts = vec![part];
     while parts.len() < WIDTH {
         let largest = (0..parts.len())
@@ -85,10 +84,10 @@ fn children<'i>(shape: &Shape, part: Part<'i>) -> Vec<Part<'i>> {
             .max_by(|a, b| shape.area(&parts[*a].bounds).total_cmp(&shape.area(&parts[*b].bounds)));
         let Some(largest) = largest else { break };
         let Part { items, .. } = parts.swap_remove(largest);
-        let at = shape.divide(items, 1);
+        let at = simd.run(Divide { shape, items: &mut *items, scratch: &mut *scratch, left: Left::Any });
         let (left, right) = items.split_at_mut(at);
         for items in [left, right] {
-            let bounds = shape.bounds_of(items);
+            let bounds = Extremes::of(items).bounds();
             parts.push(Part { items, bounds });
         }
     }

@@ -2,6 +2,7 @@
 
 use super::{Settings, THICKNESS};
 use crate::image_space::{ImageSpace, Pixels};
+use accel::morton::{self, BITS, spread};
 use accel::{Objects, Projection, Raster};
 use rayon::prelude::*;
 
@@ -48,17 +49,6 @@ pub(super) fn shown<O: Objects>(objects: O, raster: &Raster) -> Vec<Shown> {
     parts.concat()
 }
 
-/// Bits of a coordinate in a Morton code.
-const BITS: u32 = 10;
-
-/// Every third bit from a number of [`BITS`] bits.
-fn spread(v: u32) -> u32 {
-    let v = (v | v << 16) & 0x0300_00ff;
-    let v = (v | v << 8) & 0x0300_f00f;
-    let v = (v | v << 4) & 0x030c_30c3;
-    (v | v << 2) & 0x0924_9249
-}
-
 /// The places of `shown` in the order of blocks.
 pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> Vec<u32> {
     let side = raster.rows.max(raster.cols).div_ceil(THICKNESS).max(1);
@@ -86,62 +76,7 @@ pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> V
     let keyed: Vec<u64> = (0..shown.len())
         .into_par_iter()
         .with_min_len(CHUNK)
-        .map(|i| u64::from(code(&shown[i])) << 32 | i as u64)
+        .map(|i| morton::keyed(code(&shown[i]), i as u32))
         .collect();
-    radix_sort(keyed).into_iter().map(|k| k as u32).collect()
-}
-
-/// Sorts by the upper 32 bits, stably.
-fn radix_sort(mut keys: Vec<u64>) -> Vec<u64> {
-    const DIGIT: u32 = 11;
-    if keys.len() < 1 << DIGIT {
-        keys.sort_unstable();
-        return keys;
-    }
-    let mut other = vec![0; keys.len()];
-    for shift in [32, 32 + DIGIT, 32 + 2 * DIGIT] {
-        let digit = |key: u64| (key >> shift) as usize & ((1 << DIGIT) - 1);
-        let mut next = [0usize; 1 << DIGIT];
-        for &key in &keys {
-            next[digit(key)] += 1;
-        }
-        let mut sum = 0;
-        for n in &mut next {
-            (*n, sum) = (sum, sum + *n);
-        }
-        for &key in &keys {
-            let at = &mut next[digit(key)];
-            other[*at] = key;
-            *at += 1;
-        }
-        std::mem::swap(&mut keys, &mut other);
-    }
-    keys
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn radix_sort_sorts() {
-        let mut seed = 1u64;
-        let keys: Vec<u64> = (0..10_000)
-            .map(|i| {
-                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                seed >> 32 << 32 | i
-            })
-            .collect();
-        let mut expected = keys.clone();
-        expected.sort_unstable();
-        assert_eq!(radix_sort(keys), expected);
-    }
-
-    #[test]
-    fn spreading_leaves_two_bits_between() {
-        for v in [0, 1, 5, 0x155, 0x3ff] {
-            let expected = (0..BITS).fold(0, |sum, bit| sum | (v >> bit & 1) << (3 * bit));
-            assert_eq!(spread(v), expected);
-        }
-    }
+    morton::sort_by_key(keyed).into_iter().map(|k| k as u32).collect()
 }

@@ -1,0 +1,219 @@
+//! Boxes in the making of an order.
+
+use super::maps::UnitBox;
+use accel::grid::Grid;
+use accel::simd::{Level, Simd, Task};
+use accel::{Aabb, Objects, Vec3, morton};
+use rayon::prelude::*;
+
+/// A box, the number of what is in it, and how many objects that is.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub struct Item {
+    /// Least coordinates, and the number's bits.
+    low: [f32; 4],
+    /// Greatest coordinates with their signs changed, so that one minimum serves both ends; and the weight's bits.
+    high: [f32; 4],
+}
+
+impl Item {
+    /// Nothing.
+    pub const EMPTY: Self = Self { low: [f32::INFINITY; 4], high: [f32::INFINITY; 4] };
+
+    /// A box with its number and weight.
+    #[inline(always)]
+    pub fn new(number: u32, weight: u32, UnitBox { min, max }: &UnitBox) -> Self {
+        Self {
+            low: [min[0], min[1], min[2], f32::from_bits(number)],
+            high: [-max[0], -max[1], -max[2], f32::from_bits(weight)],
+        }
+    }
+
+    /// The number.
+    #[inline(always)]
+    pub fn number(&self) -> u32 {
+        self.low[3].to_bits()
+    }
+
+    /// How many objects it stands for.
+    #[inline(always)]
+    pub fn weight(&self) -> u32 {
+        self.high[3].to_bits()
+    }
+
+    /// The box.
+    #[inline(always)]
+    pub fn bounds(&self) -> UnitBox {
+        Extremes { low: self.low, high: self.high }.bounds()
+    }
+
+    /// Twice the centre.
+    #[inline(always)]
+    pub fn center(&self, axis: usize) -> f32 {
+        self.low[axis] - self.high[axis]
+    }
+
+    /// Twice the centre, with the sign changed in the second.
+    #[inline(always)]
+    pub fn centers(&self) -> Extremes {
+        let [a, b] = [&self.low, &self.high];
+        let center = [a[0] - b[0], a[1] - b[1], a[2] - b[2], 0.0];
+        Extremes { low: center, high: center.map(|v| -v) }
+    }
+
+    /// The box as it is gathered.
+    #[inline(always)]
+    pub fn extremes(&self) -> Extremes {
+        Extremes { low: self.low, high: self.high }
+    }
+}
+
+/// The range of what was gathered: least coordinates, and greatest with their signs changed; the fourth
+/// means nothing.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub struct Extremes {
+    low: [f32; 4],
+    high: [f32; 4],
+}
+
+impl Extremes {
+    /// Of nothing.
+    pub const NONE: Self = Self { low: [f32::INFINITY; 4], high: [f32::INFINITY; 4] };
+
+    /// Adds what another range holds, both of numbers that are not negative.
+    ///
+    /// Bits of such numbers are ordered as they are, and those of their negatives the other way round. Compared as
+    /// floats, this becomes a masked store where it goes to memory, and waits for the store before.
+    #[inline(always)]
+    pub fn gather(&mut self, other: &Self) {
+        for lane in 0..4 {
+            let (low, high) = (self.low[lane].to_bits(), self.high[lane].to_bits());
+            self.low[lane] = f32::from_bits(low.min(other.low[lane].to_bits()));
+            self.high[lane] = f32::from_bits(high.max(other.high[lane].to_bits()));
+        }
+    }
+
+    /// Adds what another range of any numbers holds.
+    #[inline(always)]
+    fn gather_signed(&mut self, other: &Self) {
+        for lane in 0..4 {
+            let [low, high] = [other.low[lane], other.high[lane]];
+            self.low[lane] = if low < self.low[lane] { low } else { self.low[lane] };
+            self.high[lane] = if high < self.high[lane] { high } else { self.high[lane] };
+        }
+    }
+
+    /// The box of all boxes.
+    #[inline(always)]
+    pub fn of(items: &[Item]) -> Self {
+        let mut all = Self::NONE;
+        for item in items {
+            all.gather(&item.extremes());
+        }
+        all
+    }
+
+    /// As a box.
+    #[inline(always)]
+    pub fn bounds(&self) -> UnitBox {
+        let Self { low, high } = self;
+        UnitBox { min: [low[0], low[1], low[2]], max: [-high[0], -high[1], -high[2]] }
+    }
+}
+
+/// What an order is made of.
+pub struct Scene {
+    /// One cell over the scene: unit coordinates are 0 at its lower side and 1 at its upper.
+    pub frame: Grid,
+    /// True extents of the unit coordinates' axes, up to a common factor.
+    pub extent: [f32; 3],
+    /// The boxes of all objects in unit coordinates, by number.
+    pub items: Vec<Item>,
+    /// Keys along a Morton curve through their centres, with their numbers.
+    pub keys: Vec<u64>,
+}
+
+/// Objects handled by one task.
+const CHUNK: usize = 1 << 12;
+
+impl Scene {
+    /// Of all objects.
+    pub fn new<O: Objects>(objects: &O, simd: Level) -> Self {
+        let mut items = vec![Item { low: [0.0; 4], high: [0.0; 4] }; objects.len()];
+        let chunks = items.par_chunks_mut(CHUNK).enumerate();
+        let found: Vec<Extremes> =
+            chunks.map(|(chunk, items)| simd.run(Found { objects, first: chunk * CHUNK, items })).collect();
+        let mut all = Extremes::NONE;
+        for found in &found {
+            all.gather_signed(found);
+        }
+        let UnitBox { min, max } = all.bounds();
+        let bounds = Aabb { min: Vec3::from(min), max: Vec3::from(max) };
+        let bounds = if bounds.is_empty() { Aabb::of_points([Vec3::ZERO]) } else { bounds };
+        let frame = Grid::new(bounds, [1; 3]).expect("one slice is always allowed");
+        let extent = bounds.extent();
+        let longest = extent.max_element();
+        let extent = (if longest > 0.0 { extent / longest } else { extent }).to_array();
+        let mut keys = vec![0; items.len()];
+        let chunks = items.par_chunks_mut(CHUNK).zip(keys.par_chunks_mut(CHUNK));
+        chunks.for_each(|(items, keys)| simd.run(Unit { frame: &frame, extent, items, keys }));
+        Self { frame, extent, items, keys }
+    }
+}
+
+/// Boxes as the objects give them.
+struct Found<'a, O> {
+    objects: &'a O,
+    first: usize,
+    items: &'a mut [Item],
+}
+
+impl<O: Objects> Task for Found<'_, O> {
+    type Out = Extremes;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Extremes {
+        let mut all = Extremes::NONE;
+        for (item, id) in self.items.iter_mut().zip(self.first as u32..) {
+            let Aabb { min, max } = self.objects.bounds(id);
+            *item = Item::new(id, 1, &UnitBox { min: min.to_array(), max: max.to_array() });
+            all.gather_signed(&item.extremes());
+        }
+        all
+    }
+}
+
+/// From the scene's coordinates to unit coordinates and to the curve.
+struct Unit<'a> {
+    frame: &'a Grid,
+    extent: [f32; 3],
+    items: &'a mut [Item],
+    keys: &'a mut [u64],
+}
+
+impl Task for Unit<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        let unit = |axis: usize, value: f32| self.frame.unit(axis, f64::from(value)) as f32;
+        // Cells of the curve are about as wide as they are long, as far as there are bits for that.
+        let scale = self.extent.map(|extent| 0.5 * (0.999 * (1 << morton::BITS) as f32) * extent);
+        for (item, key) in self.items.iter_mut().zip(self.keys) {
+            let mut sum = 0;
+            for (axis, scale) in scale.iter().enumerate() {
+                item.low[axis] = unit(axis, item.low[axis]);
+                item.high[axis] = -unit(axis, -item.high[axis]);
+                sum |= morton::spread(whole(item.center(axis) * scale)) << axis;
+            }
+            *key = morton::keyed(sum, item.number());
+        }
+    }
+}
+
+/// A number from 0 to 2²² rounded, in fewer instructions than a conversion that minds everything.
+#[inline(always)]
+pub fn whole(number: f32) -> u32 {
+    (number + (1u32 << 23) as f32).to_bits() & ((1 << 23) - 1)
+}
