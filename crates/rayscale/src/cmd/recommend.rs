@@ -3,7 +3,7 @@
 use super::selection::Selection;
 use super::{Console, Error, Outcome, Verb};
 use crate::check::judge;
-use crate::measure::{Options, Session, Watch, begin, run, workloads};
+use crate::measure::{Options, Session, begin, run, workloads};
 use crate::rayset::sample;
 use crate::recommend::{Candidate, Recommendation, Wish, rank};
 use crate::record::Record;
@@ -102,9 +102,7 @@ impl Verb for Recommend {
             size: 192,
             seed: 1,
             options: quick(console),
-            memory: false,
-            watch: Watch::new(Default::default(), Some(Duration::from_secs(30))),
-            command: String::new(),
+            ..Session::default()
         };
         console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
         let wish = Wish {
@@ -134,7 +132,9 @@ fn quick(console: &Console) -> Options {
         threads: console.threads().unwrap_or(1),
         rounds: 7,
         least_rounds: 3,
-        cell_time: Duration::from_millis(200),
+        // Short for each, rather than a limit of time for all, after which some would have no figure.
+        cell_time: Duration::from_millis(150),
+        sample_time: Duration::from_millis(400),
         build_rounds: 1,
         build_time: Duration::from_millis(100),
         check_tests: usual.check_tests / 4,

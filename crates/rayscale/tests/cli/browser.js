@@ -14,6 +14,9 @@
 
   const layout = (doc, width) => {
     const root = doc.documentElement;
+    for (const section of ["memory", "scenes", "ratio", "errors"]) {
+      expect(doc.querySelector(`#${section} svg text`), `${width}: no chart in ${section}`);
+    }
     expect(root.scrollWidth <= width, `${width}: the page is ${root.scrollWidth} wide`);
     for (const svg of doc.querySelectorAll("svg")) {
       const name = `${width}: ${svg.getAttribute("aria-label")}`;

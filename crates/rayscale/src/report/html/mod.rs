@@ -95,8 +95,11 @@ pub fn html(record: &Record, pictures: &Pictures) -> String {
         page.section("ratio", "Grid against bit maps", &format!("{note}{charts}"));
     }
     if let Some(table) = sections::errors(record, &styles) {
-        let note = "<p class=\"note\">Decided by exact arithmetic, per million rays checked.</p>";
-        page.section("errors", "Errors beside speed", &format!("{note}{table}"));
+        let note = "<p class=\"note\">Structures with a ray-triangle test of their own, judged by exact arithmetic, \
+                    per million rays checked. Down and left is better. The suite's own structures answer as brute \
+                    force with the same test does; <code>rayscale trade</code> compares those tests.</p>";
+        let charts = sections::errors_and_speed(&overall, &styles);
+        page.section("errors", "Errors beside speed", &format!("{note}{charts}{table}"));
     }
     page.section("all", "Everything measured", &sections::all_cells(record, &styles));
     page.section("structures-section", "Structures", &sections::structures(record, &styles));

@@ -122,6 +122,17 @@ pub fn memory_ratios(record: &Record) -> Option<String> {
     (html.len() > before).then(|| html + "</div>\n")
 }
 
+/// Wrong answers against speed, for each ray set; empty where nothing was decided.
+pub fn errors_and_speed(overall: &[Overall], styles: &Styles) -> String {
+    let all = overall.iter().filter_map(|rays| {
+        let (svg, words) = charts::errors(rays, styles)?;
+        let caption = format!("Over {} scenes. {}", rays.scenes.len(), escape(&words));
+        Some(chart(rays.rays, &svg, caption.trim_end()))
+    });
+    let all: String = all.collect();
+    if all.is_empty() { all } else { format!("<div class=\"charts\">\n{all}</div>\n") }
+}
+
 /// Wrong answers beside speed, for every structure and ray set whose errors were decided.
 pub fn errors(record: &Record, styles: &Styles) -> Option<String> {
     let rows: Vec<Vec<Value>> = record
