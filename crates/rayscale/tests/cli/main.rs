@@ -6,6 +6,7 @@ mod common;
 mod diff;
 mod frame;
 mod interruptions;
+mod json;
 mod noise;
 mod pictures;
 mod records;
