@@ -18,7 +18,7 @@ impl Mesh {
     ///
     /// # Panics
     /// If there is no such triangle, or it names no position.
-    #[inline]
+    #[inline(always)]
     pub fn corners(&self, index: usize) -> Corners {
         self.triangles[index].map(|corner| self.positions[corner as usize])
     }

@@ -32,6 +32,7 @@ pub struct Pixels {
 
 impl Pixels {
     /// Whether no ray of the raster can hit the box (Skala 1993, §2, "image consistency").
+    #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty() || self.cols.is_empty()
     }
@@ -74,6 +75,7 @@ struct Span {
 impl Span {
     const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 
+    #[inline(always)]
     fn include(&mut self, low: f64, high: f64) {
         self.low = self.low.min(low);
         self.high = self.high.max(high);
@@ -119,6 +121,7 @@ impl ImageSpace {
     }
 
     /// The pixels that may see `bounds`; all of them where the raster's arithmetic is beyond all bounds.
+    #[inline(always)]
     pub fn pixels(&self, bounds: &Aabb) -> Pixels {
         let (spans, t) = match self.projection {
             Projection::Parallel => self.parallel(bounds),
@@ -126,10 +129,10 @@ impl ImageSpace {
                 self.before_the_eye(bounds).unwrap_or_else(|| self.perspective(bounds))
             }
         };
-        let [cols, rows] = [0, 1].map(|axis| {
-            let Span { low, high } = spans[axis];
-            Span { low: low - self.margin[axis], high: high + self.margin[axis] }
-        });
+        let [mut cols, mut rows] = spans;
+        for (span, margin) in [&mut cols, &mut rows].into_iter().zip(self.margin) {
+            *span = Span { low: span.low - margin, high: span.high + margin };
+        }
         let near = t - t.abs() * (self.t_error * 2.0 + 2.0 * accel::objects::T_SLACK);
         let near = if near > 0.0 { (near as f32).next_down() } else { 0.0 };
         Pixels { rows: centres(rows, self.rows), cols: centres(cols, self.cols), near }
@@ -151,23 +154,27 @@ impl ImageSpace {
     }
 
     /// Ranges of columns and rows, and the least t.
+    #[inline(always)]
     fn parallel(&self, bounds: &Aabb) -> ([Span; 2], f64) {
         let [low, high] = self.offsets(bounds);
-        let ranges = self.forms.map(|form| {
+        // A loop, as closures given to `map` may be compiled without the instruction set of the caller.
+        let mut ranges = [Span::EMPTY; 3];
+        for (range, form) in ranges.iter_mut().zip(&self.forms) {
             let (mut least, mut most, mut error) = (0.0, 0.0, 0.0);
             for axis in 0..3 {
                 let (a, b) = (form[axis] * low[axis], form[axis] * high[axis]);
-                least += a.min(b);
-                most += a.max(b);
-                error += a.abs().max(b.abs());
+                least += if a < b { a } else { b };
+                most += if a < b { b } else { a };
+                error += if a.abs() > b.abs() { a.abs() } else { b.abs() };
             }
-            Span { low: least - error * ROUNDING, high: most + error * ROUNDING }
-        });
+            *range = Span { low: least - error * ROUNDING, high: most + error * ROUNDING };
+        }
         ([ranges[1], ranges[2]], ranges[0].low - self.t_moved)
     }
 
     /// [`ImageSpace::perspective`] for a box well before the eye: about the image of its centre, column or row c,
     /// the form of c' - c is (scaled - c t) / t, whose numerator is small over the whole box.
+    #[inline(always)]
     fn before_the_eye(&self, bounds: &Aabb) -> Option<([Span; 2], f64)> {
         let [low, high] = self.offsets(bounds);
         let (mut center, mut half) = ([0.0; 3], [0.0; 3]);
@@ -200,6 +207,7 @@ impl ImageSpace {
         Some((spans, least))
     }
 
+    #[inline(never)]
     fn perspective(&self, bounds: &Aabb) -> ([Span; 2], f64) {
         let [low, high] = self.offsets(bounds);
         let corners: [Corner; 8] = std::array::from_fn(|i| {
@@ -223,8 +231,14 @@ impl ImageSpace {
         (spans, least_t)
     }
 
+    #[inline(always)]
     fn offsets(&self, bounds: &Aabb) -> [Vector; 2] {
-        [bounds.min, bounds.max].map(|v| [0, 1, 2].map(|a| f64::from(v[a]) - self.origin[a]))
+        let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+        for axis in 0..3 {
+            low[axis] = f64::from(bounds.min[axis]) - self.origin[axis];
+            high[axis] = f64::from(bounds.max[axis]) - self.origin[axis];
+        }
+        [low, high]
     }
 }
 
@@ -285,6 +299,7 @@ impl Corner {
 }
 
 /// The pixels 0..n whose centre lies in the span, or all if it is not known.
+#[inline(always)]
 fn centres(span: Span, n: u32) -> Range<u32> {
     if span.low.is_nan() || span.high.is_nan() {
         return 0..n;
@@ -302,11 +317,13 @@ fn cross(a: Vector, b: Vector) -> Vector {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
+#[inline(always)]
 fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The sum of the sizes of a dot product's terms.
+#[inline(always)]
 fn dot_abs(a: Vector, b: Vector) -> f64 {
     (a[0] * b[0]).abs() + (a[1] * b[1]).abs() + (a[2] * b[2]).abs()
 }

@@ -67,7 +67,7 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
         self.mesh.triangles.len()
     }
 
-    #[inline]
+    #[inline(always)]
     fn bounds(&self, id: u32) -> Aabb {
         let [a, b, c] = self.corners(id);
         Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }.padded(self.frame.pad)

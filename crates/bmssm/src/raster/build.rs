@@ -21,7 +21,7 @@ struct Part {
 impl<O: Objects> RasterMaps<O> {
     /// Builds the maps of `raster` in the current rayon pool.
     pub fn build(objects: O, raster: &Raster, settings: Settings) -> Self {
-        let shown = shown(objects, raster);
+        let shown = shown(objects, raster, settings.simd);
         let order = sorted(&shown, raster, &settings);
         let parts: Vec<Part> = order
             .par_chunks(CHUNK * BLOCK)

@@ -17,8 +17,6 @@ mod serve;
 mod single;
 mod tile;
 
-pub use serve::RasterBmssm;
-
 use accel::simd::Level;
 use accel::{KernelId, Objects, Raster};
 use maps::{Block, TileMaps};

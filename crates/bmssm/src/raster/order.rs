@@ -3,6 +3,7 @@
 use super::{Settings, THICKNESS};
 use crate::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
+use accel::simd::{Level, Simd, Task};
 use accel::{Objects, Projection, Raster};
 use rayon::prelude::*;
 
@@ -23,30 +24,45 @@ pub(super) struct Shown {
 const CHUNK: usize = 1 << 14;
 
 /// The objects that both a row plane and a column plane touch.
-pub(super) fn shown<O: Objects>(objects: O, raster: &Raster) -> Vec<Shown> {
+pub(super) fn shown<O: Objects>(objects: O, raster: &Raster, simd: Level) -> Vec<Shown> {
     let space = ImageSpace::new(raster);
-    let of = |first: usize| -> Vec<Shown> {
-        (first..objects.len().min(first + CHUNK))
-            .filter_map(|id| {
-                let pixels = space.pixels(&objects.bounds(id as u32));
-                let slices =
-                    |r: &std::ops::Range<u32>| [r.start / super::THICKNESS, (r.end - 1) / super::THICKNESS];
-                let Pixels { rows, cols, near } = &pixels;
-                (!pixels.is_empty()).then(|| Shown {
-                    id: id as u32,
-                    rows: slices(rows),
-                    cols: slices(cols),
-                    depth: *near,
-                })
-            })
-            .collect()
-    };
+    let of = |first: usize| simd.run(Projected { objects, space: &space, first });
     if objects.len() <= CHUNK {
         return of(0);
     }
     let parts: Vec<Vec<Shown>> =
         (0..objects.len().div_ceil(CHUNK)).into_par_iter().map(|i| of(i * CHUNK)).collect();
     parts.concat()
+}
+
+/// The objects shown of [`CHUNK`] objects.
+struct Projected<'a, O> {
+    objects: O,
+    space: &'a ImageSpace,
+    first: usize,
+}
+
+impl<O: Objects> Task for Projected<'_, O> {
+    type Out = Vec<Shown>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Vec<Shown> {
+        let end = self.objects.len().min(self.first + CHUNK);
+        let mut shown = Vec::with_capacity(end - self.first);
+        for id in self.first as u32..end as u32 {
+            let pixels = self.space.pixels(&self.objects.bounds(id));
+            if !pixels.is_empty() {
+                let Pixels { rows, cols, near } = pixels;
+                shown.push(Shown {
+                    id,
+                    rows: [rows.start / THICKNESS, (rows.end - 1) / THICKNESS],
+                    cols: [cols.start / THICKNESS, (cols.end - 1) / THICKNESS],
+                    depth: near,
+                });
+            }
+        }
+        shown
+    }
 }
 
 /// The places of `shown` in the order of blocks.

@@ -1,47 +1,7 @@
 //! The maps of a raster behind [`Accel`].
 
-use super::{RasterMaps, Settings};
-use accel::{
-    Accel, BuildError, Builder, Counters, Footprint, Hit, Need, Objects, Raster, Ray, RaySet, Scene,
-    WithObjects, for_each_ray,
-};
-
-/// Builds `bmssm` for needs that name a raster and no other rays.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RasterBmssm {
-    /// How the maps are made.
-    pub settings: Settings,
-}
-
-impl Builder for RasterBmssm {
-    fn id(&self) -> &str {
-        "bmssm"
-    }
-
-    fn settings(&self) -> String {
-        let Settings { kernel, simd, tile, depth_bits, apart } = self.settings;
-        format!("kernel={kernel} simd={} tile={tile} depth_bits={depth_bits} apart={apart}", simd.id())
-    }
-
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        struct Build<'r>(&'r Raster, Settings);
-        impl<'s> WithObjects<'s> for Build<'_> {
-            type Out = Box<dyn Accel + 's>;
-            fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
-                Box::new(RasterMaps::build(objects, self.0, self.1))
-            }
-        }
-        match need.raster {
-            Some(raster) if !need.general => {
-                Ok(scene.with_objects(self.settings.kernel, Build(&raster, self.settings)))
-            }
-            _ => Err(BuildError::Unsupported {
-                structure: self.id().into(),
-                what: "rays other than one raster's".into(),
-            }),
-        }
-    }
-}
+use super::RasterMaps;
+use accel::{Accel, Counters, Footprint, Hit, Objects, Raster, Ray, RaySet, for_each_ray};
 
 impl<O: Objects> Accel for RasterMaps<O> {
     fn closest(&self, ray: &Ray) -> Option<Hit> {

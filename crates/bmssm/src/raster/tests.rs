@@ -1,4 +1,5 @@
 use super::*;
+use crate::fast;
 use accel::baseline::Brute;
 use accel::{
     Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Projection, RaySet, Scene, Vec3, View, WithObjects,
@@ -87,7 +88,9 @@ fn check(scene: &Scene, raster: &Raster, settings: Settings) -> usize {
     let mut expected = vec![None; rays.len()];
     let brute = Brute::new(settings.kernel).build(scene, &need).expect("brute force");
     brute.trace(&rays, &mut expected);
-    let built = RasterBmssm { settings }.build(scene, &need).expect("a raster is served");
+    let Settings { kernel, simd, tile, depth_bits, apart } = settings;
+    let settings = fast::Settings { kernel, simd, tile, depth_bits, apart, ..fast::Settings::default() };
+    let built = fast::Bmssm { settings }.build(scene, &need).expect("a raster is served");
     let mut hits = vec![Some(Hit { t: -1.0, object: 7, u: 0.0, v: 0.0 }); rays.len()];
     built.trace(&rays, &mut hits);
     for (i, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
