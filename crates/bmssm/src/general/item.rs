@@ -130,8 +130,17 @@ pub struct Scene {
     pub extent: [f32; 3],
     /// The boxes of all objects in unit coordinates, by number.
     pub items: Vec<Item>,
-    /// Keys along a Morton curve through their centres, with their numbers.
+    /// Keys along a Morton curve through their centres, those of large objects after all others, with their numbers.
     pub keys: Vec<u64>,
+}
+
+/// The part of the scene's longest side from which on an object is large.
+const LARGE: f32 = 0.25;
+
+/// Whether a key is that of a large object. They are kept apart: one of them makes its whole block as large.
+#[inline(always)]
+pub fn is_large(key: u64) -> bool {
+    key >> 63 != 0
 }
 
 /// Objects handled by one task.
@@ -142,11 +151,12 @@ impl Scene {
     pub fn new<O: Objects>(objects: &O, simd: Level) -> Self {
         let mut items = vec![Item { low: [0.0; 4], high: [0.0; 4] }; objects.len()];
         let chunks = items.par_chunks_mut(CHUNK).enumerate();
-        let found: Vec<Extremes> =
+        let found: Vec<(Extremes, Spread)> =
             chunks.map(|(chunk, items)| simd.run(Found { objects, first: chunk * CHUNK, items })).collect();
-        let mut all = Extremes::NONE;
-        for found in &found {
-            all.gather_signed(found);
+        let (mut all, mut spread) = (Extremes::NONE, Spread::default());
+        for (range, part) in &found {
+            all.gather_signed(range);
+            spread.add(part);
         }
         let UnitBox { min, max } = all.bounds();
         let bounds = Aabb { min: Vec3::from(min), max: Vec3::from(max) };
@@ -155,9 +165,10 @@ impl Scene {
         let extent = bounds.extent();
         let longest = extent.max_element();
         let extent = (if longest > 0.0 { extent / longest } else { extent }).to_array();
+        let curve = spread.curve(items.len(), &frame, extent);
         let mut keys = vec![0; items.len()];
         let chunks = items.par_chunks_mut(CHUNK).zip(keys.par_chunks_mut(CHUNK));
-        chunks.for_each(|(items, keys)| simd.run(Unit { frame: &frame, extent, items, keys }));
+        chunks.for_each(|(items, keys)| simd.run(Unit { frame: &frame, curve, extent, items, keys }));
         Self { frame, extent, items, keys }
     }
 }
@@ -170,23 +181,63 @@ struct Found<'a, O> {
 }
 
 impl<O: Objects> Task for Found<'_, O> {
-    type Out = Extremes;
+    type Out = (Extremes, Spread);
 
     #[inline(always)]
-    fn run<S: Simd>(self, _: S) -> Extremes {
-        let mut all = Extremes::NONE;
+    fn run<S: Simd>(self, _: S) -> (Extremes, Spread) {
+        let (mut all, mut spread) = (Extremes::NONE, Spread::default());
         for (item, id) in self.items.iter_mut().zip(self.first as u32..) {
             let Aabb { min, max } = self.objects.bounds(id);
             *item = Item::new(id, 1, &UnitBox { min: min.to_array(), max: max.to_array() });
             all.gather_signed(&item.extremes());
+            for axis in 0..3 {
+                let center = 0.5 * (f64::from(min[axis]) + f64::from(max[axis]));
+                spread.sum[axis] += center;
+                spread.squares[axis] += center * center;
+            }
         }
-        all
+        (all, spread)
+    }
+}
+
+/// Sums over the centres of boxes.
+#[derive(Clone, Copy, Default)]
+struct Spread {
+    sum: [f64; 3],
+    squares: [f64; 3],
+}
+
+/// For each axis where the curve begins, and its cells to a unit; in unit coordinates.
+type Curve = [(f32, f32); 3];
+
+impl Spread {
+    fn add(&mut self, other: &Self) {
+        for axis in 0..3 {
+            self.sum[axis] += other.sum[axis];
+            self.squares[axis] += other.squares[axis];
+        }
+    }
+
+    /// A curve over what lies within three standard deviations, so that a few objects far away don't put all
+    /// others into a few cells. Cells are as wide as they are long.
+    fn curve(&self, count: usize, frame: &Grid, extent: [f32; 3]) -> Curve {
+        let (mut from, mut longest) = ([0.0; 3], 0.0f32);
+        for axis in 0..3 {
+            let mean = self.sum[axis] / count.max(1) as f64;
+            let deviation = (self.squares[axis] / count.max(1) as f64 - mean * mean).max(0.0).sqrt();
+            from[axis] = frame.unit(axis, mean - 3.0 * deviation).clamp(0.0, 1.0) as f32;
+            let end = frame.unit(axis, mean + 3.0 * deviation).clamp(0.0, 1.0) as f32;
+            longest = longest.max((end - from[axis]) * extent[axis]);
+        }
+        let cells = if longest > 0.0 { ((1 << morton::BITS) - 1) as f32 / longest } else { 0.0 };
+        [0, 1, 2].map(|axis| (from[axis], cells * extent[axis]))
     }
 }
 
 /// From the scene's coordinates to unit coordinates and to the curve.
 struct Unit<'a> {
     frame: &'a Grid,
+    curve: Curve,
     extent: [f32; 3],
     items: &'a mut [Item],
     keys: &'a mut [u64],
@@ -198,16 +249,18 @@ impl Task for Unit<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         let unit = |axis: usize, value: f32| self.frame.unit(axis, f64::from(value)) as f32;
-        // Cells of the curve are about as wide as they are long, as far as there are bits for that.
-        let scale = self.extent.map(|extent| 0.5 * (0.999 * (1 << morton::BITS) as f32) * extent);
+        let last = ((1 << morton::BITS) - 1) as f32;
         for (item, key) in self.items.iter_mut().zip(self.keys) {
             let mut sum = 0;
-            for (axis, scale) in scale.iter().enumerate() {
+            for (axis, (from, cells)) in self.curve.iter().enumerate() {
                 item.low[axis] = unit(axis, item.low[axis]);
                 item.high[axis] = -unit(axis, -item.high[axis]);
-                sum |= morton::spread(whole(item.center(axis) * scale)) << axis;
+                let cell = ((0.5 * item.center(axis) - from) * cells).clamp(0.0, last);
+                sum |= morton::spread(whole(cell)) << axis;
             }
-            *key = morton::keyed(sum, item.number());
+            let size = |axis: usize| -(item.low[axis] + item.high[axis]) * self.extent[axis];
+            let large = size(0).max(size(1)).max(size(2)) > LARGE;
+            *key = morton::keyed(sum | u32::from(large) << 31, item.number());
         }
     }
 }

@@ -2,7 +2,7 @@
 //! into blocks of 64 object by object.
 
 use super::Settings;
-use super::item::{Extremes, Item};
+use super::item::{Extremes, Item, is_large};
 use super::maps::BlockMaps;
 use super::split::{Divide, Left, Shape};
 use accel::morton;
@@ -24,9 +24,13 @@ impl Order {
     /// Orders objects with these boxes and keys.
     pub fn new(shape: &Shape, boxes: &[Item], keys: Vec<u64>, settings: Settings) -> Self {
         let keys = morton::sort_by_key(keys);
-        let mut clusters = clusters(boxes, &keys);
-        let mut scratch = clusters.clone();
-        let parts = split(shape, &mut clusters, &mut scratch, settings.simd);
+        let small = keys.partition_point(|key| !is_large(*key));
+        let mut small_clusters = clusters(boxes, &keys[..small], 0);
+        let mut large_clusters = clusters(boxes, &keys[small..], small);
+        let mut scratch = small_clusters.clone();
+        let mut parts = split(shape, &mut small_clusters, &mut scratch, settings.simd);
+        let mut scratch = large_clusters.clone();
+        parts.extend(split(shape, &mut large_clusters, &mut scratch, settings.simd));
         let blocks = |part: &Part| part.objects.div_ceil(BLOCK);
         let all = parts.iter().map(blocks).sum();
         let mut order = Self {
@@ -69,8 +73,9 @@ const CLUSTER: usize = 8;
 /// Objects that a cluster has at most.
 const MOST: usize = 16;
 
-/// Runs of neighbours along the curve that share a cell: the number of the first, and how many there are.
-fn clusters(boxes: &[Item], keys: &[u64]) -> Vec<Item> {
+/// Runs of neighbours along the curve that share a cell: the place of the first, and how many there are. The
+/// first of all keys is at `place`.
+fn clusters(boxes: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
     // How many runs there are with cells of each size, by the highest bit in which neighbours differ.
     let mut differ = [0usize; 33];
     for pair in keys.windows(2) {
@@ -94,7 +99,7 @@ fn clusters(boxes: &[Item], keys: &[u64]) -> Vec<Item> {
             range.gather(&boxes[keys[end] as u32 as usize].extremes());
             end += 1;
         }
-        clusters.push(Item::new(first as u32, (end - first) as u32, &range.bounds()));
+        clusters.push(Item::new((place + first) as u32, (end - first) as u32, &range.bounds()));
         first = end;
     }
     clusters
@@ -115,6 +120,9 @@ const PARALLEL: usize = 1 << 12;
 fn split<'c>(shape: &Shape, clusters: &'c mut [Item], scratch: &mut [Item], simd: Level) -> Vec<Part<'c>> {
     let objects = clusters.iter().map(|cluster| cluster.weight() as usize).sum();
     if objects <= PART || clusters.len() == 1 {
+        if objects == 0 {
+            return Vec::new();
+        }
         return vec![Part { clusters, objects }];
     }
     let left = Left::Packed(BLOCK);
@@ -231,7 +239,7 @@ mod tests {
     fn clusters_are_runs_of_all_objects() {
         let boxes: Vec<Item> = (0..5000u32).map(|i| point(i, [i as f32 / 5000.0, 0.0, 0.0])).collect();
         let keys: Vec<u64> = (0..5000).map(|i| morton::keyed(i / 5 * 8, i)).collect();
-        let clusters = clusters(&boxes, &keys);
+        let clusters = clusters(&boxes, &keys, 0);
         let mut next = 0;
         for cluster in &clusters {
             assert_eq!(cluster.number(), next);
