@@ -101,7 +101,7 @@ impl Verb for Recommend {
             rays,
             size: 192,
             seed: 1,
-            options: quick(console),
+            options: quick(console, self.rays_per_build.is_some()),
             ..Session::default()
         };
         console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
@@ -126,7 +126,7 @@ impl Verb for Recommend {
     }
 }
 
-fn quick(console: &Console) -> Options {
+fn quick(console: &Console, builds_count: bool) -> Options {
     let usual = Options::default();
     Options {
         threads: console.threads().unwrap_or(1),
@@ -135,8 +135,8 @@ fn quick(console: &Console) -> Options {
         // Short for each, rather than a limit of time for all, after which some would have no figure.
         cell_time: Duration::from_millis(150),
         sample_time: Duration::from_millis(400),
-        build_rounds: 1,
-        build_time: Duration::from_millis(100),
+        build_rounds: if builds_count { 3 } else { 1 },
+        build_time: Duration::from_millis(300),
         check_tests: usual.check_tests / 4,
         exact_rays: 200,
         ..usual
