@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod answers;
+pub mod auto;
 pub mod changes;
 pub mod check;
 pub mod clock;

@@ -71,6 +71,7 @@ pub fn cell(scene: &str, rays: &str, structure: &str, ns: f64) -> Cell {
         query: Query::Closest,
         structure: structure.into(),
         kernel: "moller-trumbore".into(),
+        kernel_reason: String::new(),
         threads: 1,
         ray_count: 1000,
         hits: 700,

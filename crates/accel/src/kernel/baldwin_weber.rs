@@ -44,7 +44,7 @@ impl Kernel for BaldwinWeber {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
         let rows = &group[..12];
         let map = [load_row(s, &rows[..4], at), load_row(s, &rows[4..8], at), load_row(s, &rows[8..], at)];
         test(s, &Packet::splat(s, ray), map, s.splat(t_max))

@@ -35,7 +35,7 @@ impl Kernel for Double {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
         test(s, &OneRay::new(ray, group, at, S::LANES), s.splat(ray.t_min), s.splat(t_max))
     }
 

@@ -64,8 +64,16 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// Prepares `LANES` rays.
     fn many<S: Simd>(s: S, rays: &Packet<S>) -> Self::Many<S>;
 
-    /// One ray against the triangles in lanes `at .. at + LANES` of a group, with t up to `t_max`.
-    fn triangles<S: Simd>(s: S, ray: &Self::One, group: &[Row], at: usize, t_max: f32) -> Lanes<S>;
+    /// One ray against the triangles in lanes `at .. at + LANES` of a group, with t up to `t_max`. Nobody looks at
+    /// the answers of other lanes than those whose bits are `wanted`.
+    fn triangles<S: Simd>(
+        s: S,
+        ray: &Self::One,
+        group: &[Row],
+        at: usize,
+        wanted: u32,
+        t_max: f32,
+    ) -> Lanes<S>;
 
     /// `LANES` rays against the triangle in lane `lane` of a group, with t up to `t_max`.
     fn rays<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S>;
@@ -110,7 +118,7 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
         const { assert!(Self::ROWS <= MOST_ROWS) };
         let mut group = [Row([0.0; ROW]); MOST_ROWS];
         Self::pack(corners, &mut group[..Self::ROWS], 0);
-        let Lanes { hit, t, u, v } = Self::triangles(Scalar, ray, &group[..Self::ROWS], 0, t_max);
+        let Lanes { hit, t, u, v } = Self::triangles(Scalar, ray, &group[..Self::ROWS], 0, 1, t_max);
         hit.then_some(Surface { t, u, v })
     }
 }

@@ -27,7 +27,7 @@ impl Kernel for MollerTrumbore {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
         test(s, &Packet::splat(s, ray), load_corners(s, group, at), s.splat(t_max))
     }
 

@@ -38,7 +38,7 @@ impl<K: Kernel> Task for BothWays<'_, K> {
         let mut out = vec![[None; 2]; rays.len() * triangles.len()];
         for (r, ray) in rays.iter().enumerate() {
             for at in (0..ROW).step_by(S::LANES) {
-                let lanes = K::triangles(s, &K::one(ray), &group, at, f32::INFINITY);
+                let lanes = K::triangles(s, &K::one(ray), &group, at, u32::MAX, f32::INFINITY);
                 for lane in (0..S::LANES).filter(|lane| s.bits(lanes.hit) >> lane & 1 != 0) {
                     out[r * triangles.len() + at + lane][0] = Some(lanes.rows(s).surface(lane));
                 }

@@ -109,7 +109,7 @@ impl Kernel for Watertight {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Sheared, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(s: S, ray: &Sheared, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
         let lanes = ShearedLanes {
             origin: splat3(s, ray.ray.origin),
             t_min: s.splat(ray.ray.t_min),

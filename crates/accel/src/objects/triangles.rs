@@ -224,7 +224,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             let wanted = (mask >> first & lanes_mask) as u32;
             mask &= !(lanes_mask << first);
             let group = self.group(block * BLOCK + first);
-            let lanes = K::triangles(s, &ray.prepared, group, first % ROW, t_max);
+            let lanes = K::triangles(s, &ray.prepared, group, first % ROW, wanted, t_max);
             let mut hits = s.bits(lanes.hit) & wanted;
             if hits == 0 {
                 continue;

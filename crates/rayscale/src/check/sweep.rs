@@ -117,7 +117,9 @@ fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally:
     let few = (sweep.tests / 16 / scene.geometry.len().max(1) as u64).max(1);
     let few = usize::try_from(few).unwrap_or(usize::MAX);
     // A set that has no rays on this scene (no objects, no hits) is nothing to check.
-    let sets: Vec<Set> = workloads(&session, scene, &mut Vec::new())
+    let workloads = workloads(&session, scene, &mut Vec::new());
+    let choices = crate::auto::resolve(choices, scene, &workloads);
+    let sets: Vec<Set> = workloads
         .into_iter()
         .map(|set| Set { thinned: thin(&set.rays, few), set, right: Mutex::default() })
         .collect();

@@ -13,6 +13,7 @@ mod console;
 mod diff;
 mod error;
 mod interrupt;
+mod kernel;
 mod measure;
 mod paper;
 mod rank;

@@ -1,17 +1,16 @@
 //! `rayscale recommend`
 
+use super::kernel::per_million;
 use super::selection::Selection;
 use super::{Console, Error, Outcome, Verb};
-use crate::check::judge;
+use crate::auto::Examiner;
 use crate::measure::{Options, Session, begin, run, workloads};
-use crate::rayset::sample;
 use crate::recommend::{Candidate, Recommendation, Wish, rank};
 use crate::record::Record;
 use crate::registry::{self, Choice, StructureSpec};
 use crate::scene::{self, SceneSpec};
 use crate::units;
-use accel::exact::Oracle;
-use accel::{Geometry, Need, Scene};
+use accel::{KernelId, Scene};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -24,13 +23,13 @@ Every structure is built, checked and measured on the scene, with the settings w
 ranked by time per ray: the geometric mean over the ray sets, plus each ray's share of the build
 if --rays-per-build says how many rays share one. Uses one thread unless --threads says otherwise.
 
-Errors are counted by exact arithmetic on a few thousand rays, so a rate below one in as many can
-be seen to be met but not proved.
+Errors are counted by exact arithmetic on the rays that are traced for it; those of the exact kernel are
+proven to be none.
 
 Examples:
   rayscale recommend model.obj
   rayscale recommend sponza --rays shadow,diffuse --memory 64MiB
-  rayscale recommend model.obj --rays-per-build 2000000 --max-error 1e-4")]
+  rayscale recommend model.obj --rays-per-build 2000000 --max-error 100")]
 pub struct Recommend {
     /// Scene: an id, a definition or a mesh
     scene: String,
@@ -40,8 +39,8 @@ pub struct Recommend {
     /// Memory that structure and geometry copy may take, such as 64MiB
     #[arg(long, value_name = "SIZE", value_parser = size)]
     memory: Option<u64>,
-    /// Share of rays whose answer may be wrong, such as 1e-6
-    #[arg(long, value_name = "RATE", value_parser = rate)]
+    /// Wrong answers that may be given in a million rays: missed, invented or of another object
+    #[arg(long, value_name = "PER MILLION", value_parser = per_million)]
     max_error: Option<f64>,
     /// Rays traced for each build; otherwise the build doesn't count
     #[arg(long, value_name = "N")]
@@ -68,13 +67,6 @@ fn size(text: &str) -> Result<u64, String> {
     }
 }
 
-fn rate(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|r| (0.0..=1.0).contains(r))
-        .ok_or_else(|| "must be a share from 0 to 1".to_owned())
-}
-
 /// Settings worth trying besides the default ones.
 const SETTINGS: [(&str, &str); 4] = [
     ("embree", "quality=high"),
@@ -86,8 +78,11 @@ const SETTINGS: [(&str, &str); 4] = [
 /// Structures that test every object for every ray are candidates up to so many objects.
 const FEW_OBJECTS: usize = 2000;
 
-/// Rays judged exactly for a kernel and ray set.
-const JUDGED: usize = 4000;
+/// Rays judged exactly for a kernel and ray set: all of them as a rule, else a sample.
+const JUDGED: usize = 1 << 16;
+
+/// Kernels that are tried where accuracy counts, the default one first.
+const KERNELS: [KernelId; 3] = [KernelId::MollerTrumbore, KernelId::Watertight, KernelId::Exact];
 
 impl Verb for Recommend {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
@@ -107,7 +102,7 @@ impl Verb for Recommend {
         console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
         let wish = Wish {
             memory: self.memory,
-            max_error: self.max_error,
+            max_error: self.max_error.map(|rate| rate / 1e6),
             rays_per_build: self.rays_per_build.map(|n| n as f64),
         };
         let (record, errors) = console.in_pool(1, || {
@@ -156,7 +151,7 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
     }
     if accuracy {
         for id in ["bmssm", "ssm"].into_iter().filter(|id| here(id)) {
-            for kernel in ["watertight", "exact"] {
+            for kernel in &KERNELS[1..] {
                 specs.push(format!("{id}:kernel={kernel}").parse()?);
             }
         }
@@ -164,23 +159,16 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
     specs.iter().map(|spec| Ok(registry::choose(spec)?)).collect()
 }
 
-/// The share of wrong answers of the suite's kernels, by exact arithmetic.
+/// The share of wrong answers of the suite's kernels, as for the kernel `auto`.
 fn errors(session: &Session, scene: &Scene) -> BTreeMap<(String, String), f64> {
-    let Geometry::Triangles(mesh) = &scene.geometry else { return BTreeMap::new() };
-    let oracle = Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)));
     let mut all = BTreeMap::new();
     let workloads = workloads(session, scene, &mut Vec::new());
-    for kernel in ["moller-trumbore", "watertight", "exact"] {
-        let grid = registry::parse(&format!("ssm:kernel={kernel}")).ok();
-        let Some(accel) = grid.and_then(|c| c.builder.build(scene, &Need::GENERAL).ok()) else { continue };
-        for workload in &workloads {
-            let numbers = sample(workload.rays.len(), JUDGED);
-            let mut hits = vec![None; workload.rays.len()];
-            accel.trace(&workload.rays, &mut hits);
-            let wrong = judge(&oracle, &workload.rays, &hits, &numbers);
-            let rate =
-                (wrong.missed + wrong.false_hits + wrong.wrong_object) as f64 / numbers.len().max(1) as f64;
-            all.insert((kernel.to_owned(), workload.id.clone()), rate);
+    let mut examiner = Examiner::new(scene, &workloads, JUDGED * workloads.len());
+    for kernel in KERNELS {
+        let known =
+            if kernel == KernelId::Exact { vec![0.0; workloads.len()] } else { examiner.rates(kernel) };
+        for (workload, rate) in workloads.iter().zip(known) {
+            all.insert((kernel.id().to_owned(), workload.id.clone()), rate / 1e6);
         }
     }
     all
@@ -266,7 +254,5 @@ mod tests {
         for text in ["", "MiB", "0", "-1", "1 parsec", "1..2k"] {
             assert!(size(text).is_err(), "{text}");
         }
-        assert_eq!(rate("1e-6"), Ok(1e-6));
-        assert!(rate("2").is_err() && rate("NaN").is_err());
     }
 }

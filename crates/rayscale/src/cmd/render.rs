@@ -1,6 +1,7 @@
 //! `rayscale render`
 
-use super::structure::{choose, trace};
+use super::kernel::KernelOptions;
+use super::structure::trace;
 use super::{Console, Error, Outcome, Verb};
 use crate::output::write_whole;
 use crate::picture::{self, Differences, Shading, difference, shade};
@@ -40,6 +41,8 @@ pub struct Render {
     /// Structure that finds the hits, with settings
     #[arg(long, value_name = "ID[:NAME=VALUE,…]", default_value = "ssm")]
     structure: String,
+    #[command(flatten)]
+    kernel: KernelOptions,
     /// Another structure: show where its hits differ
     #[arg(long, value_name = "ID[:NAME=VALUE,…]")]
     against: Option<String>,
@@ -91,8 +94,9 @@ impl FromStr for Size {
 
 impl Verb for Render {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
-        let choice = choose(&self.structure, None)?;
-        let against = self.against.as_deref().map(|text| choose(text, None)).transpose()?;
+        let choice = self.kernel.choose_one(&self.structure)?;
+        let plain = KernelOptions::default();
+        let against = self.against.as_deref().map(|text| plain.choose_one(text)).transpose()?;
         let scene = scene::load(&self.scene)?;
         let raster = self.raster(&scene);
         let rays = RaySet::Raster(raster);
@@ -100,7 +104,8 @@ impl Verb for Render {
         let picture = shade(&scene.geometry, &raster, &first.hits, self.shade);
         let hits = first.hits.iter().flatten().count();
         let mut facts = serde_json::json!({
-            "scene": scene.id, "structure": choice.spec.to_string(), "out": self.out,
+            "scene": scene.id, "structure": choice.spec.to_string(), "kernel": first.kernel,
+            "kernel_reason": first.reason, "out": self.out,
             "cols": raster.cols, "rows": raster.rows, "hits": hits,
         });
         let mut text = format!(

@@ -1,10 +1,10 @@
 //! What verbs that run structures choose from: scenes, ray sets, structures, kernel.
 
 use super::Error;
+use super::kernel::KernelOptions;
 use crate::rays::RaysId;
-use crate::registry::{self, Choice, RegistryError, StructureSpec};
+use crate::registry::{Choice, RegistryError, StructureSpec};
 use crate::scene::{self, SceneSpec};
-use accel::KernelId;
 use clap::Args;
 
 /// Filters of what is run.
@@ -19,9 +19,8 @@ pub struct Selection {
     /// A structure, with settings as `id:name=value,name=value`; may be repeated. All otherwise
     #[arg(long = "structure", value_name = "ID")]
     pub structures: Vec<String>,
-    /// The ray-triangle test of the suite's own structures
-    #[arg(long, value_name = "ID")]
-    pub kernel: Option<String>,
+    #[command(flatten)]
+    pub kernel: KernelOptions,
     /// Rows and columns of rasters; lists have as many rays. 256, or what fits a full run
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
     pub size: Option<u32>,
@@ -71,25 +70,10 @@ impl Selection {
     /// # Errors
     /// Structures, settings or kernels that are not known.
     pub fn structures(&self, otherwise: &[StructureSpec]) -> Result<Vec<Choice>, Error> {
-        let kernel = match &self.kernel {
-            None => None,
-            Some(id) => {
-                let unknown = || Error::unknown("kernel", id, KernelId::ALL.map(KernelId::id));
-                Some(KernelId::from_id(id).ok_or_else(unknown)?)
-            }
-        };
         let asked: Result<Vec<StructureSpec>, RegistryError> =
             self.structures.iter().map(|s| s.parse()).collect();
         let asked = asked.map_err(Error::from)?;
         let specs = if asked.is_empty() { otherwise } else { &asked };
-        let choose = |spec: &StructureSpec| -> Result<Choice, Error> {
-            let own = registry::find(&spec.id)?.traits.own_kernel;
-            let spec = match kernel {
-                Some(kernel) if own => spec.clone().with_default("kernel", kernel),
-                _ => spec.clone(),
-            };
-            Ok(registry::choose(&spec)?)
-        };
-        specs.iter().map(choose).collect()
+        self.kernel.choose_all(specs)
     }
 }

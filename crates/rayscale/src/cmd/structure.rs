@@ -1,60 +1,50 @@
-//! Structures as verbs use them: chosen by name, built, traced.
+//! Structures as verbs use them: built, traced.
 
 use super::{Console, Error};
-use crate::registry::{self, Choice, StructureSpec};
-use accel::{Hit, KernelId, Need, RaySet, Scene};
+use crate::auto;
+use crate::rayset::Workload;
+use crate::record::Query;
+use crate::registry::Choice;
+use accel::{Hit, Need, RaySet, Scene};
 use std::time::{Duration, Instant};
-
-/// The structure of that name and settings, its ray-triangle test being `kernel` if given.
-///
-/// # Errors
-/// Unknown structures, settings and kernels; a kernel for a structure that brings its own, or two.
-pub fn choose(text: &str, kernel: Option<&str>) -> Result<Choice, Error> {
-    let mut spec: StructureSpec = text.parse()?;
-    if let Some(kernel) = kernel {
-        let entry = registry::find(&spec.id)?;
-        if !entry.traits.own_kernel {
-            return Err(Error::usage(
-                format!("structure `{}` brings its own ray-triangle test; it takes no --kernel", entry.id),
-                "leave --kernel out",
-            ));
-        }
-        let kernel = KernelId::from_id(kernel)
-            .ok_or_else(|| Error::unknown("kernel", kernel, KernelId::ALL.map(KernelId::id)))?;
-        if spec.get("kernel").is_some_and(|given| given != kernel.id()) {
-            return Err(Error::usage(
-                format!("`{text}` and --kernel {kernel} name two kernels"),
-                "name one of them",
-            ));
-        }
-        spec = spec.with_default("kernel", kernel);
-    }
-    Ok(registry::choose(&spec)?)
-}
 
 /// Hits, and what they took.
 #[derive(Debug)]
 pub struct Traced {
     /// One for each ray.
     pub hits: Vec<Option<Hit>>,
+    /// The ray-triangle test that found them.
+    pub kernel: &'static str,
+    /// Why that one; empty where the user chose.
+    pub reason: String,
     /// Time to build the structure.
     pub build: Duration,
     /// Time to trace the rays.
     pub trace: Duration,
 }
 
-/// Builds the structure for these rays and traces them, on all cores unless `--threads` says otherwise.
+/// Builds the structure for these rays and traces them, on all cores unless `--threads` says otherwise. A kernel that
+/// is left to the suite is decided first.
 ///
 /// # Errors
 /// Where the structure can't serve this scene or these rays.
 pub fn trace(console: &Console, choice: &Choice, scene: &Scene, rays: &RaySet) -> Result<Traced, Error> {
     console.in_pool(0, || {
+        let workload = || Workload { id: String::new(), rays: rays.clone(), query: Query::Closest };
+        let undecided = choice.kernel() == crate::registry::AUTO;
+        let workloads = if undecided { vec![workload()] } else { Vec::new() };
+        let choices = auto::resolve(std::slice::from_ref(choice), scene, &workloads);
+        let choice = &choices[0];
+        if undecided {
+            console.note(format!("kernel {}: {}", choice.kernel(), choice.reason()));
+        }
         let start = Instant::now();
         let accel = choice.builder.build(scene, &Need::of(rays))?;
         let build = start.elapsed();
         let mut hits = vec![None; rays.len()];
         let start = Instant::now();
         accel.trace(rays, &mut hits);
-        Ok(Traced { hits, build, trace: start.elapsed() })
+        let trace = start.elapsed();
+        Ok(Traced { hits, kernel: choice.kernel(), reason: choice.reason().to_owned(), build, trace })
     })?
 }

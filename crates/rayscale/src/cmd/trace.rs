@@ -1,6 +1,7 @@
 //! `rayscale trace`
 
-use super::structure::{choose, trace};
+use super::kernel::KernelOptions;
+use super::structure::trace;
 use super::{Console, Error, Outcome, Verb};
 use crate::exchange::{RaysCsvError, read_rays, write_hits};
 use crate::output::write_whole;
@@ -32,7 +33,8 @@ The ray-triangle test is moller-trumbore unless --kernel says otherwise; foreign
 
 Examples:
   rayscale trace --scene model.obj --rays rays.csv --structure ssm --out hits.csv
-  rayscale trace --scene model.obj --rays rays.csv --structure brute --kernel watertight --out hits.csv")]
+  rayscale trace --scene model.obj --rays rays.csv --structure brute --kernel watertight --out hits.csv
+  rayscale trace --scene model.obj --rays rays.csv --structure bmssm --kernel auto --max-error 0.5 --out hits.csv")]
 pub struct Trace {
     /// Scene: a mesh, an id or a definition
     #[arg(long, value_name = "FILE.obj")]
@@ -46,14 +48,13 @@ pub struct Trace {
     /// The file to write
     #[arg(long, value_name = "HITS.csv")]
     out: PathBuf,
-    /// Ray-triangle test, for the suite's own structures
-    #[arg(long, value_name = "ID")]
-    kernel: Option<String>,
+    #[command(flatten)]
+    kernel: KernelOptions,
 }
 
 impl Verb for Trace {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
-        let choice = choose(&self.structure, self.kernel.as_deref())?;
+        let choice = self.kernel.choose_one(&self.structure)?;
         self.spare_the_rays()?;
         let rays = read(&self.rays)?;
         let scene = scene::load(&self.scene)?;
@@ -64,7 +65,8 @@ impl Verb for Trace {
         let (build, trace) = (traced.build.as_nanos() as u64, traced.trace.as_nanos() as u64);
         console.result(
             &serde_json::json!({
-                "scene": scene.id, "structure": choice.spec.to_string(), "kernel": choice.kernel(),
+                "scene": scene.id, "structure": choice.spec.to_string(), "kernel": traced.kernel,
+                "kernel_reason": traced.reason,
                 "rays": rays, "hits": hits, "build_ns": build, "trace_ns": trace, "out": self.out,
             }),
             format!(

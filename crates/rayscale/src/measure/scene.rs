@@ -52,6 +52,8 @@ pub fn measure(job: &Job, keep: impl FnMut(&Workload, Vec<Cell>)) {
 }
 
 fn all_ray_sets(job: &Job, mut keep: impl FnMut(&Workload, Vec<Cell>)) -> Option<()> {
+    let choices = crate::auto::resolve(job.choices, job.scene, job.workloads);
+    let job = &Job { choices: &choices, ..*job };
     let mut references = References::new(job);
     let build = |wanted: &[(&Choice, Need)]| build_all(job.scene, wanted, job.options, job.watch);
     let missing = |choice: &Choice| job.workloads.iter().any(|w| job.wants(w, choice));
@@ -210,6 +212,7 @@ fn blank(job: &Job, workload: &Workload, choice: &Choice, built: &Built, rays: &
         query: workload.query,
         structure: choice.spec.to_string(),
         kernel: choice.kernel().to_owned(),
+        kernel_reason: choice.reason().to_owned(),
         threads: job.options.threads,
         ray_count: rays.len() as u64,
         hits: 0,

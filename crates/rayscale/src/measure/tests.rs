@@ -3,10 +3,11 @@
 use super::*;
 use crate::rayset::Workload;
 use crate::record::{Cell, Query};
-use crate::registry::{self, Choice, Entry, Traits};
+use crate::registry::{self, Choice, ChosenKernel, Entry, Traits};
 use crate::testing;
 use accel::baseline::MinMax;
 use accel::{Accel, BuildError, Builder, Footprint, Hit, KernelId, Need, Ray, RaySet, Scene};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -149,7 +150,12 @@ fn odd(fault: Fault) -> Cell {
         variants: &[],
         make: |_| unreachable!("made by the test"),
     };
-    let odd = Choice { spec: "odd".parse().unwrap(), entry: &ENTRY, builder: Box::new(Odd(fault)) };
+    let odd = Choice {
+        spec: "odd".parse().unwrap(),
+        entry: &ENTRY,
+        kernel: ChosenKernel::Given(KernelId::MollerTrumbore),
+        builder: Arc::new(Odd(fault)),
+    };
     let choices = [registry::parse("minmax").unwrap(), odd];
     let cells = cells(&choices, &quick());
     let sound = cells.iter().filter(|c| c.structure == "minmax");

@@ -27,6 +27,9 @@ pub struct Cell {
     pub structure: String,
     /// Ray-triangle test, or `own` for a foreign structure's.
     pub kernel: String,
+    /// Why this ray-triangle test was chosen, where that was left to the suite.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub kernel_reason: String,
     /// Threads that built and traced.
     pub threads: usize,
     /// Rays in a sample. Structures whose time grows with the number of objects trace fewer.

@@ -5,13 +5,16 @@
 
 mod entries;
 mod error;
+mod kernel;
 mod settings;
 
 pub use error::RegistryError;
+pub use kernel::{AUTO, ChosenKernel};
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 
 use crate::near::near;
 use accel::{Builder, RaySet};
+use std::sync::Arc;
 
 /// A structure that can be built.
 pub struct Entry {
@@ -75,23 +78,29 @@ pub struct Absent {
     pub reason: String,
 }
 
-/// A structure with its settings, ready to build.
+/// A structure with its settings, ready to build once its kernel is decided.
+#[derive(Clone)]
 pub struct Choice {
     /// As asked for.
     pub spec: StructureSpec,
     /// What is known of it.
     pub entry: &'static Entry,
+    /// Its ray-triangle test.
+    pub kernel: ChosenKernel,
     /// Makes it.
-    pub builder: Box<dyn Builder>,
+    pub builder: Arc<dyn Builder>,
 }
 
 impl Choice {
-    /// The name of the ray-triangle test: one of the suite's, or `own` for a foreign structure's.
-    pub fn kernel(&self) -> &str {
-        if !self.entry.traits.own_kernel {
-            return "own";
-        }
-        self.spec.get("kernel").unwrap_or(accel::KernelId::MollerTrumbore.id())
+    /// The name of the ray-triangle test: one of the suite's, `own` for a foreign structure's, or `auto` while
+    /// it is not decided.
+    pub fn kernel(&self) -> &'static str {
+        self.kernel.name()
+    }
+
+    /// Why this kernel was chosen; empty where the user did.
+    pub fn reason(&self) -> &str {
+        self.kernel.reason()
     }
 }
 
@@ -126,8 +135,9 @@ pub fn find(id: &str) -> Result<&'static Entry, RegistryError> {
 /// Unknown or absent structures, unknown settings, bad values: [`RegistryError`].
 pub fn choose(spec: &StructureSpec) -> Result<Choice, RegistryError> {
     let entry = find(&spec.id)?;
-    let builder = (entry.make)(&Settings::new(spec, entry.settings)?)?;
-    Ok(Choice { spec: spec.clone(), entry, builder })
+    let kernel = ChosenKernel::of(entry, spec);
+    let builder = kernel.builder(entry, spec)?;
+    Ok(Choice { spec: spec.clone(), entry, kernel, builder })
 }
 
 /// As [`choose`], from text.

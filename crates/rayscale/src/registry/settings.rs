@@ -33,6 +33,15 @@ impl StructureSpec {
         self
     }
 
+    /// With this value of a setting, whatever it was before.
+    #[must_use]
+    pub fn with(&self, name: &str, value: &str) -> Self {
+        let mut spec = self.clone();
+        spec.settings.retain(|(n, _)| n != name);
+        spec.settings.push((name.to_owned(), value.to_owned()));
+        spec
+    }
+
     /// The value of a setting, if given.
     pub fn get(&self, name: &str) -> Option<&str> {
         self.settings.iter().find(|(n, _)| n == name).map(|(_, value)| value.as_str())

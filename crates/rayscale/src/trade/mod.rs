@@ -144,13 +144,14 @@ fn one_scene(
     let mut session =
         Session { rays: plan.timed.clone(), size: plan.size, seed: plan.seed, ..Session::default() };
     let timed = workloads(&session, scene, skipped);
+    session.rays = JUDGED.to_vec();
+    session.size = plan.judged;
+    let judged = workloads(&session, scene, skipped);
+    let choices = &*crate::auto::resolve(choices, scene, &judged);
     let (done, watch) = Default::default();
     let job = Job { scene, workloads: &timed, choices, options: &plan.options, done: &done, watch: &watch };
     let mut cells = Vec::new();
     measure(&job, |_, more| cells.extend(more));
-    session.rays = JUDGED.to_vec();
-    session.size = plan.judged;
-    let judged = workloads(&session, scene, skipped);
     let truths: Vec<(&Workload, Truth)> = judged.iter().map(|w| (w, Truth::of(oracle, &w.rays))).collect();
     let extent = scene.geometry.bounds().extent().max_element();
     let mut rows = Vec::new();
@@ -163,6 +164,7 @@ fn one_scene(
             scene: scene.id.clone(),
             structure: name,
             kernel: choice.kernel().to_owned(),
+            kernel_reason: choice.reason().to_owned(),
             ns_per_ray: ns.as_deref().and_then(geometric_mean),
             bytes: bytes.map(|b| b.structure + b.geometry_copy),
             accuracy: None,

@@ -13,6 +13,9 @@ pub struct Row {
     pub structure: String,
     /// Kernel, or `own` for a foreign structure's.
     pub kernel: String,
+    /// Why this kernel was chosen, where that was left to the suite.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub kernel_reason: String,
     /// Geometric mean over the timed ray sets, unless one of them failed.
     pub ns_per_ray: Option<f64>,
     /// Memory of structure and geometry copy.
@@ -93,6 +96,7 @@ mod tests {
             scene: "s".into(),
             structure: "x".into(),
             kernel: "own".into(),
+            kernel_reason: String::new(),
             ns_per_ray: Some(ns),
             bytes: None,
             accuracy: Some(Accuracy { rays: 100, missed, ..Accuracy::default() }),

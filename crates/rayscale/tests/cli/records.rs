@@ -129,6 +129,7 @@ fn cell(scene: &str, objects: u64, rays: &str, structure: &str, (ns, bytes): (f6
         query: if matches!(rays, "shadow" | "ambient") { Query::Occluded } else { Query::Closest },
         structure: structure.into(),
         kernel: if is_foreign { "own" } else { "moller-trumbore" }.into(),
+        kernel_reason: String::new(),
         threads: 1,
         ray_count: 100_000,
         hits: 61_234,

@@ -3,6 +3,7 @@
 //! The bounds are those of [`super::reject`] with ε = 2^-53; products of three `f32` neither under- nor overflow.
 
 use super::by_integers;
+use super::signs::{Place, place};
 use crate::kernel::wide::{Pairs, Products};
 use crate::packet::Lanes;
 use crate::simd::{ROW, Simd};
@@ -14,7 +15,7 @@ const FEW: u32 = 2;
 
 /// Decisions in memory.
 struct Decisions {
-    /// 0: missed, 1: hit, 2: neither is certain.
+    /// 0: missed, 1: hit, 2: neither is certain, 3: a hit if inside, which is not certain.
     state: [f32; ROW],
     t: [f32; ROW],
     u: [f32; ROW],
@@ -74,24 +75,31 @@ impl Decisions {
         let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
         // At an end of the range, the rounded t doesn't tell on which side the true one lies.
         let clear = (low == high) & (low != ray.t_min) & (low != ray.t_max);
-        let hit = inside & firm & clear;
-        self.state[lane] = if hit { 1.0 } else { 2.0 };
+        let unsure = if firm & clear { 3.0 } else { 2.0 };
+        self.state[lane] = if inside & firm & clear { 1.0 } else { unsure };
         self.state[lane] = if missed { 0.0 } else { self.state[lane] };
         self.t[lane] = low;
         self.u[lane] = (u * reciprocal) as f32;
         self.v[lane] = (v * reciprocal) as f32;
     }
 
-    /// Decides the lanes `unsure` by integers, and tells which are hit.
+    /// Decides the lanes `unsure` by exact signs and, where t is not known, by integers, and tells which are hit.
     #[cold]
     fn settle(&mut self, pairs: &impl Pairs, mut unsure: u32) -> u32 {
         let mut hits = 0;
         while unsure != 0 {
             let lane = unsure.trailing_zeros() as usize;
             unsure &= unsure - 1;
-            if let Some(found) = by_integers(&pairs.ray(lane), &pairs.corners(lane)) {
-                hits |= 1 << lane;
-                (self.t[lane], self.u[lane], self.v[lane]) = found.into();
+            let (ray, corners) = (pairs.ray(lane), pairs.corners(lane));
+            match place(&ray, &corners) {
+                Some(Place::Outside) => {}
+                Some(Place::Inside(_)) if self.state[lane] == 3.0 => hits |= 1 << lane,
+                _ => {
+                    if let Some(found) = by_integers(&ray, &corners) {
+                        hits |= 1 << lane;
+                        (self.t[lane], self.u[lane], self.v[lane]) = found.into();
+                    }
+                }
             }
         }
         hits

@@ -6,17 +6,18 @@
 //!    triangles tested are missed, and nearly all misses end here.
 //! 2. [`decide`]: the same products in `f64` with an error bound. It settles hits, and rounds t correctly where
 //!    its bound leaves one `f32` only.
-//! 3. [`crate::exact::intersect`]: integers. Rays through an edge or a corner, and ranges that begin or end at the
-//!    hit, come here.
+//! 3. [`signs`]: rays through an edge or a corner, by signs without error.
+//! 4. [`crate::exact::intersect`]: integers. Ranges that begin or end at the hit, and t's halfway between two `f32`, come here.
 //!
 //! t is the true one correctly rounded. Rounding keeps order, so of two hits the one reported at the lower t is the
-//! nearer one; hits reported at the same t are put in order by integers ([`Kernel::order`]).
+//! nearer one; hits reported at the same t are put in order by integers unless they are of one edge or corner ([`Kernel::order`]).
 //!
 //! The idea of stages is that of J. R. Shewchuk, *Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
 
 mod decide;
 mod reject;
+mod signs;
 
 #[cfg(test)]
 mod tests;
@@ -26,6 +27,7 @@ use super::{Corners, Kernel, KernelId, load_corners, splat_corners};
 use crate::Ray;
 use crate::packet::{Common, Lanes, Packet};
 use crate::simd::{Row, Scalar, Simd};
+use signs::{Place, place, same_point};
 use std::cmp::Ordering;
 
 /// The exact test: see [`crate::exact`] for what counts as a hit.
@@ -66,9 +68,17 @@ impl Kernel for Exact {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Spanned, group: &[Row], at: usize, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(
+        s: S,
+        ray: &Spanned,
+        group: &[Row],
+        at: usize,
+        wanted: u32,
+        t_max: f32,
+    ) -> Lanes<S> {
         let rays = Packet::splat(s, &ray.ray);
         let open = reject::open(s, &rays, &ray.span.splat(s), load_corners(s, group, at), s.splat(t_max));
+        let open = open & wanted;
         if open == 0 {
             return nothing(s);
         }
@@ -106,6 +116,11 @@ impl Kernel for Exact {
 
     fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
         if a == b {
+            return Ordering::Equal;
+        }
+        if let (Some(Place::Inside(on_a)), Some(Place::Inside(on_b))) = (place(ray, a), place(ray, b))
+            && same_point((a, on_a), (b, on_b))
+        {
             return Ordering::Equal;
         }
         let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
