@@ -116,6 +116,11 @@ fn flat_equal_coplanar_and_degenerate_triangles() {
 }
 
 #[test]
+fn needles_ten_million_times_as_long_as_wide() {
+    assert!(check("extreme-needles", 4) > 4000);
+}
+
+#[test]
 fn extreme_sizes_of_units() {
     for id in ["unit-tiny", "unit-huge", "unit-far"] {
         check(id, 6);

@@ -44,11 +44,7 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// Writes a triangle to lane `lane` of a group of [`Kernel::ROWS`] rows.
     #[inline(always)]
     fn pack(corners: &Corners, group: &mut [Row], lane: usize) {
-        for (corner, rows) in corners.iter().zip(group.chunks_exact_mut(3)) {
-            for (axis, row) in rows.iter_mut().enumerate() {
-                row.0[lane] = corner[axis];
-            }
-        }
+        pack_corners(corners, group, lane);
     }
 
     /// The corners packed in lane `lane`, or `None` where the rows don't hold them.
@@ -184,6 +180,16 @@ pub trait WithKernel {
     type Out;
     /// Does it with kernel `K`.
     fn kernel<K: Kernel>(self) -> Self::Out;
+}
+
+/// Writes corners to the first nine rows.
+#[inline(always)]
+pub(crate) fn pack_corners(corners: &Corners, group: &mut [Row], lane: usize) {
+    for (corner, rows) in corners.iter().zip(group.chunks_exact_mut(3)) {
+        for (axis, row) in rows.iter_mut().enumerate() {
+            row.0[lane] = corner[axis];
+        }
+    }
 }
 
 // Plain functions and no closures: only what is `#[inline(always)]` is sure to be compiled

@@ -1,6 +1,8 @@
-//! Whether structures lose or invent hits.
+//! Whether structures lose or invent hits, and whether kernels keep what they promise.
 
 mod errors;
+pub mod leaks;
+pub mod oracle;
 mod reference;
 pub mod sweep;
 #[cfg(test)]

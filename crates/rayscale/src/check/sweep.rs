@@ -96,7 +96,7 @@ pub fn run(sweep: &Sweep, choices: &[Choice], mut tell: impl FnMut(&str)) -> Res
             let spec: SceneSpec = id.parse()?;
             match scene::load(&spec) {
                 Ok(scene) => one_scene(sweep, &scene, choices, sweep.seed + pass, &mut tally),
-                Err(error) if error.is_unavailable() => tally.findings.push(format!("passed over: {error}")),
+                Err(error) if error.is_unavailable() => tally.findings.push(unavailable(&error)),
                 Err(error) => return Err(error),
             }
             if pass == 0 {
@@ -110,6 +110,11 @@ pub fn run(sweep: &Sweep, choices: &[Choice], mut tell: impl FnMut(&str)) -> Res
             return Ok(tally);
         }
     }
+}
+
+/// What is said of a scene that is not on this machine.
+pub(super) fn unavailable(error: &SceneError) -> String {
+    format!("passed over: {error}")
 }
 
 fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally: &mut Tally) {

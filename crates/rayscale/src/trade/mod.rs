@@ -216,6 +216,6 @@ mod tests {
         assert!(table(&trade.rows).rows.len() == 4);
         let image = svg(&trade);
         assert!(image.starts_with("<svg") && image.trim_end().ends_with("</svg>"));
-        assert!(image.matches("<circle").count() >= 4);
+        assert!(image.matches("<path").count() >= 4);
     }
 }

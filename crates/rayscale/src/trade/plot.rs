@@ -6,15 +6,27 @@ use std::fmt::Write;
 const COLUMNS: usize = 3;
 const PANEL: (f64, f64) = (330.0, 240.0);
 const MARGIN: f64 = 42.0;
-const LEGEND: f64 = 60.0;
+const LEGEND: f64 = 76.0;
 
 /// Rows without an error are drawn here, below one in a million rays.
 const NONE: f64 = 0.3;
 
-const COLOURS: [&str; 8] =
-    ["#1b6ca8", "#d1495b", "#3c8d2f", "#8e44ad", "#c77d0a", "#0f8b8d", "#6b4f3a", "#555555"];
+const COLOURS: [&str; 12] = [
+    "#1b6ca8", "#d1495b", "#3c8d2f", "#8e44ad", "#c77d0a", "#0f8b8d", "#6b4f3a", "#555555", "#e05fa0",
+    "#7a8a00", "#2f4ea2", "#b03a00",
+];
 
-/// The plot as SVG: colours are structures, letters are kernels, filled points form the Pareto front.
+/// Kernels by the shape of their points.
+const SHAPES: [(&str, &str); 6] = [
+    ("moller-trumbore", "M-4,0A4,4 0 1 0 4,0A4,4 0 1 0 -4,0Z"),
+    ("baldwin-weber", "M-3.5,-3.5H3.5V3.5H-3.5Z"),
+    ("watertight", "M0,-4.5L4.5,3.5H-4.5Z"),
+    ("double", "M0,-5L4.5,0L0,5L-4.5,0Z"),
+    ("exact", "M0,-6L1.6,-2L6,-1.6L2.6,1.2L3.8,5.4L0,3L-3.8,5.4L-2.6,1.2L-6,-1.6L-1.6,-2Z"),
+    ("own", "M-4,-4L0,-1.5L4,-4L1.5,0L4,4L0,1.5L-4,4L-1.5,0Z"),
+];
+
+/// The plot as SVG: colours are structures, shapes are kernels, filled points form the Pareto front.
 pub fn svg(trade: &Trade) -> String {
     let mut ids: Vec<&str> = Vec::new();
     for row in &trade.rows {
@@ -41,9 +53,15 @@ pub fn svg(trade: &Trade) -> String {
             escape(id)
         );
     }
+    for (i, (kernel, _)) in SHAPES.iter().enumerate() {
+        let (x, y) = (20.0 + 160.0 * i as f64, LEGEND - 28.0);
+        point(&mut out, (x, y - 3.0), kernel, "#333", false, "");
+        let name = if *kernel == "own" { "a foreign structure's own" } else { kernel };
+        let _ = writeln!(out, "<text x=\"{}\" y=\"{y}\">{name}</text>", x + 8.0);
+    }
     let _ = writeln!(
         out,
-        "<text x=\"20\" y=\"{}\">kernels: M Möller–Trumbore, B Baldwin–Weber, W watertight, D double, E exact; filled: nothing else is as fast and as right</text>",
+        "<text x=\"20\" y=\"{}\">colour: structure; shape: ray-triangle test; filled: nothing else of the scene is as fast and as right</text>",
         LEGEND - 10.0
     );
     for (i, scene) in scenes.iter().enumerate() {
@@ -64,15 +82,16 @@ fn colour(ids: &[&str], id: &str) -> &'static str {
     COLOURS[place % COLOURS.len()]
 }
 
-fn letter(row: &Row) -> &'static str {
-    match row.kernel.as_str() {
-        "moller-trumbore" => "M",
-        "baldwin-weber" => "B",
-        "watertight" => "W",
-        "double" => "D",
-        "exact" => "E",
-        _ => "",
-    }
+/// A point with a title that shows under the pointer.
+fn point(out: &mut String, (x, y): (f64, f64), kernel: &str, colour: &str, filled: bool, title: &str) {
+    let shape = SHAPES.iter().find(|(name, _)| *name == kernel).unwrap_or(&SHAPES[0]).1;
+    let fill = if filled { colour } else { "none" };
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        out,
+        "<path d=\"{shape}\" transform=\"translate({x:.1} {y:.1})\" fill=\"{fill}\" stroke=\"{colour}\"><title>{}</title></path>",
+        escape(title)
+    );
 }
 
 fn panel(out: &mut String, (left, top): (f64, f64), scene: &str, rows: &[&Row], ids: &[&str]) {
@@ -119,21 +138,100 @@ fn panel(out: &mut String, (left, top): (f64, f64), scene: &str, rows: &[&Row], 
         left + MARGIN,
         top + inner_height + 38.0
     );
-    for (row, ns, errors) in &points {
-        let (x, y, colour) = (x_of(*ns), y_of(*errors), colour(ids, family(row)));
-        let fill = if row.front { colour } else { "none" };
-        let _ = writeln!(
-            out,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{fill}\" stroke=\"{colour}\"><title>{}: {ns:.0} ns, {errors:.1} in a million</title></circle>\
-             <text x=\"{:.1}\" y=\"{:.1}\" fill=\"{colour}\">{}</text>",
-            escape(&row.structure),
-            x + 5.0,
-            y - 4.0,
-            letter(row)
-        );
+    // The front last, so that nothing covers it.
+    for front in [false, true] {
+        for (row, ns, errors) in points.iter().filter(|(row, ..)| row.front == front) {
+            let title = format!("{}: {ns:.0} ns, {errors:.1} in a million", row.structure);
+            let place = (x_of(*ns), y_of(*errors));
+            point(out, place, &row.kernel, colour(ids, family(row)), front, &title);
+        }
     }
 }
 
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Accuracy;
+    use super::*;
+    use crate::machine::Machine;
+    use crate::record::{SceneEntry, Suite};
+
+    fn trade(scenes: usize, structures: usize) -> Trade {
+        let mut trade = Trade {
+            command: String::new(),
+            suite: Suite::this(),
+            machine: Machine::here(),
+            scenes: Vec::new(),
+            rows: Vec::new(),
+            skipped: Vec::new(),
+        };
+        for scene in 0..scenes {
+            let id = format!("a-scene-of-some-length-{scene}");
+            for structure in 0..structures {
+                trade.rows.push(Row {
+                    scene: id.clone(),
+                    structure: format!("structure-{structure}:kernel=exact"),
+                    kernel: SHAPES[structure % SHAPES.len()].0.to_owned(),
+                    kernel_reason: String::new(),
+                    ns_per_ray: Some(3.0 * 7f64.powi(structure as i32 % 6)),
+                    bytes: None,
+                    accuracy: Some(Accuracy { rays: 1000, missed: structure as u64, ..Accuracy::default() }),
+                    front: structure == 0,
+                    error: None,
+                });
+            }
+            trade.scenes.push(SceneEntry {
+                id,
+                objects: 1,
+                kind: "triangles".into(),
+                source: String::new(),
+                checksum: String::new(),
+            });
+        }
+        trade
+    }
+
+    /// Left, right and baseline of every text, its letters taken for 5.6 units wide.
+    fn texts(image: &str) -> Vec<(f64, f64, f64)> {
+        let tags = image.split("<text ").skip(1);
+        let texts = tags.map(|tag| {
+            let number = |name: &str| -> f64 {
+                let rest = tag.split(&format!("{name}=\"")).nth(1).unwrap();
+                rest.split('"').next().unwrap().parse().unwrap()
+            };
+            let (head, rest) = tag.split_once('>').unwrap();
+            let width = rest.split('<').next().unwrap().chars().count() as f64 * 5.6;
+            let shift = if head.contains("\"end\"") {
+                1.0
+            } else if head.contains("\"middle\"") {
+                0.5
+            } else {
+                0.0
+            };
+            let left = number("x") - width * shift;
+            (left, left + width, number("y"))
+        });
+        texts.collect()
+    }
+
+    #[test]
+    fn no_text_covers_another_or_leaves_the_picture() {
+        for (scenes, structures) in [(1, 3), (9, 12), (14, 10)] {
+            let image = svg(&trade(scenes, structures));
+            let all = texts(&image);
+            assert!(all.len() > scenes * 7 + structures);
+            let (width, height) = (3.0 * PANEL.0, scenes.div_ceil(COLUMNS) as f64 * PANEL.1 + LEGEND);
+            for (i, a) in all.iter().enumerate() {
+                assert!(a.0 >= 0.0 && a.1 <= width && a.2 > 8.0 && a.2 < height, "{a:?} leaves the picture");
+                for b in &all[..i] {
+                    let beside = a.1 <= b.0 || b.1 <= a.0;
+                    assert!(beside || (a.2 - b.2).abs() >= 8.0, "{a:?} covers {b:?}");
+                }
+            }
+            assert_eq!(image.matches("<path ").count(), scenes * structures + SHAPES.len());
+        }
+    }
 }

@@ -3,7 +3,7 @@
 //! The bounds are those of [`super::reject`] with ε = 2^-53; products of three `f32` neither under- nor overflow.
 
 use super::by_integers;
-use super::signs::{Place, place};
+use super::signs::{Place, meets_corner, place};
 use crate::kernel::wide::{Pairs, Products};
 use crate::packet::Lanes;
 use crate::simd::{ROW, Simd};
@@ -91,9 +91,14 @@ impl Decisions {
             let lane = unsure.trailing_zeros() as usize;
             unsure &= unsure - 1;
             let (ray, corners) = (pairs.ray(lane), pairs.corners(lane));
+            let needs_only_inside = self.state[lane] == 3.0;
+            if needs_only_inside && meets_corner(&ray, &corners) {
+                hits |= 1 << lane;
+                continue;
+            }
             match place(&ray, &corners) {
                 Some(Place::Outside) => {}
-                Some(Place::Inside(_)) if self.state[lane] == 3.0 => hits |= 1 << lane,
+                Some(Place::Inside(_)) if needs_only_inside => hits |= 1 << lane,
                 _ => {
                     if let Some(found) = by_integers(&ray, &corners) {
                         hits |= 1 << lane;

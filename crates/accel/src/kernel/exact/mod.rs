@@ -23,17 +23,20 @@ mod signs;
 mod tests;
 
 use super::wide::{OneRay, OneTriangle, RayRows};
-use super::{Corners, Kernel, KernelId, load_corners, splat_corners};
+use super::{Corners, Kernel, KernelId, load_corners, pack_corners, splat_corners};
 use crate::Ray;
 use crate::packet::{Common, Lanes, Packet};
 use crate::simd::{Row, Scalar, Simd};
-use signs::{Place, place, same_point};
+use signs::{Place, meet_at_corner, place, same_point};
 use std::cmp::Ordering;
 
 /// The exact test: see [`crate::exact`] for what counts as a hit.
 /// u and v are right to about one unit in the last place of 1.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
+
+/// The row of the edges' largest components.
+const LENGTH_ROW: usize = 9;
 
 /// A ray and the size of its direction.
 #[derive(Clone, Copy)]
@@ -54,8 +57,16 @@ impl Kernel for Exact {
     const ID: KernelId = KernelId::Exact;
     const ORDERS_TIES: bool = true;
     const NORMALISED: bool = false;
+    /// The corners, and the largest component of the edges.
+    const ROWS: usize = 10;
     type One = Spanned;
     type Many<S: Simd> = SpannedLanes<S>;
+
+    #[inline(always)]
+    fn pack(corners: &Corners, group: &mut [Row], lane: usize) {
+        pack_corners(corners, group, lane);
+        group[LENGTH_ROW].0[lane] = reject::length_of(corners);
+    }
 
     #[inline(always)]
     fn one(ray: &Ray) -> Spanned {
@@ -77,8 +88,9 @@ impl Kernel for Exact {
         t_max: f32,
     ) -> Lanes<S> {
         let rays = Packet::splat(s, &ray.ray);
-        let open = reject::open(s, &rays, &ray.span.splat(s), load_corners(s, group, at), s.splat(t_max));
-        let open = open & wanted;
+        let length = s.load(&group[LENGTH_ROW].0[at..]);
+        let corners = load_corners(s, group, at);
+        let open = wanted & reject::open(s, &rays, &ray.span.splat(s), corners, length, s.splat(t_max));
         if open == 0 {
             return nothing(s);
         }
@@ -88,7 +100,8 @@ impl Kernel for Exact {
 
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        let open = reject::open(s, &rays.rays, &rays.span, splat_corners(s, group, lane), t_max);
+        let length = s.splat(group[LENGTH_ROW].0[lane]);
+        let open = reject::open(s, &rays.rays, &rays.span, splat_corners(s, group, lane), length, t_max);
         one_triangle(s, rays, group, lane, open, t_max)
     }
 
@@ -116,6 +129,9 @@ impl Kernel for Exact {
 
     fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
         if a == b {
+            return Ordering::Equal;
+        }
+        if meet_at_corner(ray, a, b) {
             return Ordering::Equal;
         }
         if let (Some(Place::Inside(on_a)), Some(Place::Inside(on_b))) = (place(ray, a), place(ray, b))

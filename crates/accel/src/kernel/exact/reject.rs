@@ -14,7 +14,7 @@
 //! bounds themselves and that of the comparisons of t. With 2^-30 ≤ D ≤ 2^30 and S + L < 2^45 nothing overflows, and underflows
 //! add less than [`TINY`] to each. Beyond those sizes nothing is rejected here.
 
-use crate::kernel::{cross3, dot3, splat_row3, store_rows, sub3};
+use crate::kernel::{Corners, cross3, dot3, splat_row3, store_rows, sub3};
 use crate::packet::{Common, Packet, Vec3Lanes, splat3};
 use crate::simd::{Row, Scalar, Simd};
 
@@ -76,13 +76,21 @@ struct Parts<S: Simd> {
     distance: S::F,
 }
 
-/// The lanes that may be hit at t up to `t_max`, as bits. NaN, as in empty lanes, is not.
+/// The largest component of the edges from the first corner: L.
+#[inline(always)]
+pub(super) fn length_of([a, b, c]: &Corners) -> f32 {
+    let (edge1, edge2) = (*b - *a, *c - *a);
+    length(Scalar, edge1.to_array(), edge2.to_array())
+}
+
+/// The lanes that may be hit at t up to `t_max`, as bits. NaN, as in empty lanes, is not. `length` is that of [`length_of`].
 #[inline(always)]
 pub(super) fn open<S: Simd>(
     s: S,
     ray: &Packet<S>,
     span: &Span<S>,
     [a, b, c]: [Vec3Lanes<S>; 3],
+    length: S::F,
     t_max: S::F,
 ) -> u32 {
     let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
@@ -94,7 +102,7 @@ pub(super) fn open<S: Simd>(
         p,
         q: cross3(s, from_a, edge1),
         det: dot3(s, edge1, p),
-        length: length(s, edge1, edge2),
+        length,
         distance: distance(s, from_a),
     };
     undecided(s, ray, span, &parts, t_max)

@@ -56,6 +56,27 @@ pub(super) fn same_point(a: (&Corners, [bool; 3]), b: (&Corners, [bool; 3])) -> 
     proper && shares(a, b) && shares(b, a)
 }
 
+/// Whether the ray's line certainly passes through a corner.
+pub(super) fn meets_corner(ray: &Ray, corners: &Corners) -> bool {
+    corners.iter().any(|corner| passes(ray, *corner))
+}
+
+/// Whether the ray's line certainly passes through a corner that both triangles have. If it is in neither's plane, that corner is where it
+/// hits both.
+pub(super) fn meet_at_corner(ray: &Ray, a: &Corners, b: &Corners) -> bool {
+    a.iter().any(|corner| b.contains(corner) && passes(ray, *corner))
+}
+
+/// Whether the line certainly passes through a point: (p − o) × d = 0.
+fn passes(ray: &Ray, point: Vec3) -> bool {
+    let d = ray.direction.to_array().map(f64::from);
+    let Some(p) = difference(point, ray.origin) else { return false };
+    let equal = |[_, j, k]: [usize; 3]| {
+        p[j] * d[k] == p[k] * d[j] && two_product(p[j], d[k]).1 == two_product(p[k], d[j]).1
+    };
+    MINORS.into_iter().all(equal)
+}
+
 /// p − q if that is exact.
 fn difference(p: Vec3, q: Vec3) -> Option<[f64; 3]> {
     let mut result = [0.0; 3];
@@ -202,8 +223,13 @@ mod tests {
         fn places_are_those_of_integers(o in vector(), d in vector(), axis in prop::option::of(0usize..3), corners in [vector(), vector(), vector()]) {
             let d = axis.map_or(d, |axis| Vec3::AXES[axis] * d);
             let ray = Ray { t_min: f32::NEG_INFINITY, ..Ray::new(o, d) };
+            let exact = intersect(&ray, &corners);
+            if let Some(hit) = exact.as_ref().filter(|_| meets_corner(&ray, &corners)) {
+                let weights = [hit.u.to_f64(), hit.v.to_f64()];
+                prop_assert!([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].contains(&weights));
+            }
             if let Some(place) = place(&ray, &corners) {
-                let exact = intersect(&ray, &corners);
+                prop_assert!(!(meets_corner(&ray, &corners) && place == Place::Outside && exact.is_some()));
                 prop_assert_eq!(place != Place::Outside, exact.is_some());
                 if let (Place::Inside(on), Some(hit)) = (place, exact) {
                     // u is the weight of the second corner, v of the third.
@@ -219,10 +245,14 @@ mod tests {
             let mut second = [a, b, d];
             second.rotate_left(turn);
             let first = [c, a, b];
+            let t = |corners| intersect(&ray, corners).map(|hit| hit.t);
+            if let (true, Some(x), Some(y)) = (meet_at_corner(&ray, &first, &second), t(&first), t(&second)) {
+                prop_assert_eq!(x, y);
+            }
             if let (Some(Place::Inside(x)), Some(Place::Inside(y))) = (place(&ray, &first), place(&ray, &second))
                 && same_point((&first, x), (&second, y))
             {
-                prop_assert_eq!(intersect(&ray, &first).map(|h| h.t), intersect(&ray, &second).map(|h| h.t));
+                prop_assert_eq!(t(&first), t(&second));
             }
         }
     }
@@ -261,6 +291,8 @@ mod tests {
         let (first, second) = ([a, b, c], [b, d, a]);
         assert!(same(&at(Vec3::new(0.5, 0.0, 0.0)), &first, &second), "an edge");
         assert!(same(&at(b), &first, &second), "a corner");
+        assert!(meets_corner(&at(b), &first) && meet_at_corner(&at(b), &first, &second));
+        assert!(!meets_corner(&at(Vec3::new(0.5, 0.0, 0.0)), &first));
         let flat = [a, b, Vec3::new(1.0, 1.0, 0.0)];
         assert!(!same(&at(Vec3::new(0.5, 0.25, 0.0)), &first, &flat), "insides are not compared");
     }
