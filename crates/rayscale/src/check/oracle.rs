@@ -1,7 +1,7 @@
 //! Structures with a kernel that claims to be exact, against the oracle.
 
 use super::sweep::unavailable;
-use crate::measure::{Options, Session, guard, workloads};
+use crate::measure::{Session, guard, workloads};
 use crate::rays::{Query, RaysId};
 use crate::registry::Choice;
 use crate::scene::{self, SceneError};
@@ -120,16 +120,8 @@ pub fn run(
 fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, tally: &mut OracleTally) {
     let Geometry::Triangles(mesh) = &scene.geometry else { return };
     let oracle = Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)));
-    let session = Session {
-        scenes: Vec::new(),
-        rays: plan.rays.iter().copied().filter(|id| id.query() == Query::Closest).collect(),
-        size: plan.size,
-        seed,
-        options: Options::default(),
-        memory: false,
-        most_time: None,
-        command: String::new(),
-    };
+    let rays = plan.rays.iter().copied().filter(|id| id.query() == Query::Closest).collect();
+    let session = Session { rays, size: plan.size, seed, ..Session::default() };
     let workloads = workloads(&session, scene, &mut Vec::new());
     let choices = crate::auto::resolve(choices, scene, &workloads);
     let general: Vec<_> =
