@@ -53,6 +53,52 @@ fn json_says_what_was_done() {
 }
 
 #[test]
+fn a_kernel_left_to_the_suite_is_chosen_by_the_errors_allowed() {
+    let folder = folder();
+    let kernel = |more: &[&str]| {
+        let all = [&["--structure", "ssm", "--json"], more].concat();
+        let out = trace(&folder, &all).success().get_output().stdout.clone();
+        let facts: serde_json::Value = serde_json::from_slice(&out).expect("JSON");
+        (facts["kernel"].as_str().unwrap().to_owned(), facts["kernel_reason"].as_str().unwrap().to_owned())
+    };
+    let (proven, why) = kernel(&["--kernel", "auto", "--max-error", "0"]);
+    assert_eq!(proven, "exact");
+    assert!(why.contains("proven"), "{why}");
+    let (cheapest, why) = kernel(&["--kernel", "auto", "--max-error", "1000000"]);
+    assert_eq!(cheapest, "moller-trumbore");
+    assert!(why.contains("on all 4 rays"), "{why}");
+    assert_eq!(kernel(&["--kernel", "exact"]).1, "");
+    trace(&folder, &["--structure", "ssm", "--max-error", "1"]).code(2);
+    trace(&folder, &["--structure", "ssm", "--kernel", "auto", "--max-error", "-1"]).code(2);
+}
+
+#[test]
+fn a_record_says_which_kernel_was_chosen_and_why() {
+    let folder = folder();
+    let mut command =
+        rayscale(["measure", "--scene", "scene.obj", "--rays", "random", "--size", "8", "--rounds", "1"]);
+    command.args([
+        "--structure",
+        "ssm",
+        "--structure",
+        "minmax:kernel=watertight",
+        "--kernel",
+        "auto",
+        "--no-memory",
+    ]);
+    command
+        .args(["--max-error", "0", "--out", "record.json"])
+        .current_dir(folder.folder())
+        .assert()
+        .success();
+    let record: serde_json::Value = serde_json::from_str(&folder.read("record.json")).expect("JSON");
+    let cells = record["cells"].as_array().unwrap();
+    assert_eq!((&cells[0]["structure"], &cells[0]["kernel"]), (&"ssm:kernel=auto".into(), &"exact".into()));
+    assert!(cells[0]["kernel_reason"].as_str().unwrap().contains("proven"), "{}", cells[0]);
+    assert!(cells[1]["kernel"] == "watertight" && cells[1].get("kernel_reason").is_none());
+}
+
+#[test]
 fn a_malformed_ray_is_named_and_older_hits_stay() {
     for (rays, message) in [
         ("0,0,3,0,0,-1,0,inf\n0,0,3,0,0,oops,0,inf\n", "line 2, field `dz`: `oops`"),
