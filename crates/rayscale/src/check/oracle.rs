@@ -94,6 +94,9 @@ pub fn run(
     for pass in 0.. {
         let before = tally.rays;
         for id in &plan.scenes {
+            if pass > 0 && tally.rays >= plan.least {
+                break;
+            }
             let scene = match scene::load(&id.parse()?) {
                 Ok(scene) => scene,
                 Err(error) if error.is_unavailable() => {
