@@ -150,8 +150,10 @@ impl<O: Objects, I: Id> Built<O, I> {
                     continue;
                 }
                 count.tests(1);
-                if let Some(surface) = self.objects.intersect(id, ray, best.t) {
-                    best.offer(id, surface);
+                // The objects know the order of hits that are reported at the same t.
+                let before = best.object;
+                self.objects.closest(id, ray, &mut best);
+                if best.object != before {
                     if ANY {
                         return best;
                     }

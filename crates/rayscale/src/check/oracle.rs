@@ -184,7 +184,13 @@ fn count(row: &mut OracleRow, hit: Option<Hit>, truth: Option<&(u32, ExactHit)>)
     let judgement = classify(hit, truth);
     match judgement.verdict {
         Verdict::Agree => {
-            let off = judgement.t_ulp_error.map_or(0.0, f64::abs);
+            // Beyond the range of `f32` the correctly rounded t is infinite.
+            let beyond = |(_, exact): &&(u32, ExactHit)| exact.t.to_f32().is_infinite();
+            let rounded = truth.filter(beyond).map(|(_, exact)| exact.t.to_f32());
+            let off = match rounded {
+                Some(t) if hit.is_some_and(|hit| hit.t == t) => 0.0,
+                _ => judgement.t_ulp_error.map_or(0.0, f64::abs),
+            };
             row.wrong_t += u64::from(off > 1.0);
             row.t_ulp_max = row.t_ulp_max.max(off);
         }

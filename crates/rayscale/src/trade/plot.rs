@@ -7,6 +7,8 @@ const COLUMNS: usize = 3;
 const PANEL: (f64, f64) = (330.0, 240.0);
 const MARGIN: f64 = 42.0;
 const LEGEND: f64 = 76.0;
+/// Room on the right for half of a figure.
+const EDGE: f64 = 10.0;
 
 /// Rows without an error are drawn here, below one in a million rays.
 const NONE: f64 = 0.3;
@@ -37,7 +39,7 @@ pub fn svg(trade: &Trade) -> String {
     }
     let scenes: Vec<&str> = trade.scenes.iter().map(|scene| scene.id.as_str()).collect();
     let lines = scenes.len().div_ceil(COLUMNS).max(1);
-    let (width, height) = (COLUMNS as f64 * PANEL.0, lines as f64 * PANEL.1 + LEGEND);
+    let (width, height) = (COLUMNS as f64 * PANEL.0 + EDGE, lines as f64 * PANEL.1 + LEGEND);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"10\">\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n"
@@ -223,7 +225,7 @@ mod tests {
             let image = svg(&trade(scenes, structures));
             let all = texts(&image);
             assert!(all.len() > scenes * 7 + structures);
-            let (width, height) = (3.0 * PANEL.0, scenes.div_ceil(COLUMNS) as f64 * PANEL.1 + LEGEND);
+            let (width, height) = (3.0 * PANEL.0 + EDGE, scenes.div_ceil(COLUMNS) as f64 * PANEL.1 + LEGEND);
             for (i, a) in all.iter().enumerate() {
                 assert!(a.0 >= 0.0 && a.1 <= width && a.2 > 8.0 && a.2 < height, "{a:?} leaves the picture");
                 for b in &all[..i] {
