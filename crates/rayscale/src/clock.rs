@@ -28,6 +28,15 @@ impl Clock {
             Self::Wall => wall(),
         }
     }
+
+    /// As [`Clock::now`] for builds: of one thread, the time that all threads of this program ran, for a
+    /// library may build in threads of its own.
+    pub fn now_of_build(self) -> u64 {
+        match self {
+            Self::Thread => process(),
+            Self::Wall => wall(),
+        }
+    }
 }
 
 fn wall() -> u64 {
@@ -37,12 +46,27 @@ fn wall() -> u64 {
 
 #[cfg(unix)]
 fn thread() -> u64 {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    by(rustix::time::ClockId::ThreadCPUTime)
+}
+
+#[cfg(unix)]
+fn process() -> u64 {
+    by(rustix::time::ClockId::ProcessCPUTime)
+}
+
+#[cfg(unix)]
+fn by(clock: rustix::time::ClockId) -> u64 {
+    let time = rustix::time::clock_gettime(clock);
     time.tv_sec as u64 * 1_000_000_000 + time.tv_nsec as u64
 }
 
 #[cfg(not(unix))]
 fn thread() -> u64 {
+    wall()
+}
+
+#[cfg(not(unix))]
+fn process() -> u64 {
     wall()
 }
 
@@ -61,5 +85,18 @@ mod tests {
         assert!(asleep(Clock::Wall) >= 100_000_000);
         assert!(cfg!(not(unix)) || asleep(Clock::of(1)) < 90_000_000);
         assert_eq!(Clock::of(2), Clock::Wall);
+    }
+
+    #[test]
+    fn builds_count_the_work_of_every_thread() {
+        let start = Clock::Thread.now_of_build();
+        let work = || (0..20_000_000u64).fold(1u64, |a, b| std::hint::black_box(a ^ b));
+        let taken = std::thread::spawn(move || {
+            let start = Clock::Thread.now();
+            std::hint::black_box(work());
+            Clock::Thread.now() - start
+        });
+        let taken = taken.join().unwrap();
+        assert!(Clock::Thread.now_of_build() - start >= taken);
     }
 }

@@ -3,11 +3,11 @@
 use super::Options;
 use super::guard::guard;
 use super::watch::Watch;
+use crate::clock::Clock;
 use crate::heap;
 use crate::record::Bytes;
 use crate::registry::Choice;
 use accel::{Accel, Group, Need, Scene};
-use std::time::Instant;
 
 /// A structure on its way through a scene, or the reason why it has none.
 pub struct Built<'s> {
@@ -45,7 +45,7 @@ pub fn build_all<'s>(
             let built = &mut all[i];
             let spent: u64 = built.build_ns.iter().sum();
             if built.accel.is_ok() && u128::from(spent) < options.build_time.as_nanos() {
-                timed(scene, choice, need, built);
+                timed(scene, choice, need, Clock::of(options.threads), built);
             }
         }
     }
@@ -77,10 +77,10 @@ fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Built<'s> {
     Built { accel, build_ns: Vec::new(), bytes }
 }
 
-fn timed<'s>(scene: &'s Scene, choice: &Choice, need: &Need, built: &mut Built<'s>) {
-    let start = Instant::now();
+fn timed<'s>(scene: &'s Scene, choice: &Choice, need: &Need, clock: Clock, built: &mut Built<'s>) {
+    let start = clock.now_of_build();
     let again = build(scene, choice, need);
-    let ns = start.elapsed().as_nanos() as u64;
+    let ns = clock.now_of_build() - start;
     if again.is_ok() {
         built.build_ns.push(ns);
     }
