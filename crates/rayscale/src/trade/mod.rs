@@ -73,12 +73,10 @@ pub struct Trade {
     pub skipped: Vec<Skipped>,
 }
 
-/// The suite's fast structures with every kernel, and the others by their defaults and variants.
+/// The suite's structures with every kernel, and the others by their defaults and variants.
 pub fn defaults() -> Vec<StructureSpec> {
     let mut all = Vec::new();
-    for entry in
-        registry::entries().iter().filter(|e| e.traits.own_kernel && e.traits.default && !e.traits.linear)
-    {
+    for entry in registry::entries().iter().filter(|e| e.traits.own_kernel && e.traits.default) {
         for kernel in KernelId::ALL {
             let spec = StructureSpec { id: entry.id.to_owned(), settings: Vec::new() };
             all.push(spec.with_default("kernel", kernel));
