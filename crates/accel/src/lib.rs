@@ -19,6 +19,7 @@ pub mod packet;
 mod ray;
 mod rayset;
 mod scene;
+pub mod settings;
 pub mod simd;
 mod structure;
 

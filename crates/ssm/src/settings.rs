@@ -1,6 +1,7 @@
 //! What both grids can be told.
 
 use crate::Resolution;
+use accel::settings::{self, none_of};
 use accel::simd::Level;
 use accel::{BuildError, KernelId};
 
@@ -39,23 +40,12 @@ impl Settings {
     pub(crate) fn set(&mut self, id: &str, name: &str, value: &str) -> Result<(), BuildError> {
         let error = |problem| BuildError::Setting { structure: id.into(), setting: name.into(), problem };
         match name {
-            "kernel" => {
-                self.kernel = KernelId::from_id(value)
-                    .ok_or_else(|| error(unknown(value, KernelId::ALL.map(KernelId::id))))?;
-            }
-            "simd" => {
-                self.simd = Level::from_id(value)
-                    .filter(|level| level.available())
-                    .ok_or_else(|| error(unknown(value, Level::here().map(Level::id))))?;
-            }
+            "kernel" => self.kernel = settings::kernel(value).map_err(error)?,
+            "simd" => self.simd = settings::simd(value).map_err(error)?,
             "resolution" => self.resolution = Resolution::parse_slices(value).map_err(error)?,
             "density" => self.resolution = Resolution::parse_density(value).map_err(error)?,
-            "memory" => {
-                let bytes =
-                    value.parse().map_err(|_| error(format!("'{value}' is not a number of bytes")))?;
-                self.memory = Some(bytes);
-            }
-            _ => return Err(error(unknown(name, Self::NAMES.map(|(name, _)| name)))),
+            "memory" => self.memory = Some(settings::bytes(value).map_err(error)?),
+            _ => return Err(error(none_of(name, Self::NAMES.map(|(name, _)| name)))),
         }
         Ok(())
     }
@@ -64,9 +54,4 @@ impl Settings {
         let memory = self.memory.map(|bytes| format!(" memory={bytes}")).unwrap_or_default();
         format!("kernel={} simd={} {}{memory}", self.kernel, self.simd.id(), self.resolution)
     }
-}
-
-fn unknown<'a>(value: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    let known: Vec<_> = known.into_iter().collect();
-    format!("'{value}' is none of {}", known.join(", "))
 }

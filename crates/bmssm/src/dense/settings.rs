@@ -2,6 +2,7 @@
 
 use super::Resolution;
 use accel::KernelId;
+use accel::settings::{self, none_of};
 use accel::simd::Level;
 use std::fmt;
 
@@ -62,14 +63,8 @@ impl Settings {
     /// Says what is wrong.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
         match name {
-            "kernel" => {
-                self.kernel = KernelId::from_id(value)
-                    .ok_or_else(|| none_of(value, KernelId::ALL.map(KernelId::id)))?;
-            }
-            "simd" => {
-                let level = Level::from_id(value).filter(|level| level.available());
-                self.simd = level.ok_or_else(|| none_of(value, Level::here().map(Level::id)))?;
-            }
+            "kernel" => self.kernel = settings::kernel(value)?,
+            "simd" => self.simd = settings::simd(value)?,
             "resolution" => self.resolution = Resolution::parse(value)?,
             "loop" => {
                 let known = [Loop::Appendix, Loop::Words].into_iter().find(|walk| walk.id() == value);
@@ -82,10 +77,7 @@ impl Settings {
                     _ => return Err(none_of(value, ["on", "off"])),
                 }
             }
-            "memory" => {
-                let bytes = value.parse().map_err(|_| format!("'{value}' is not a number of bytes"))?;
-                self.memory = Some(bytes);
-            }
+            "memory" => self.memory = Some(settings::bytes(value)?),
             _ => return Err(none_of(name, Self::NAMES.map(|(name, _)| name))),
         }
         Ok(())
@@ -114,11 +106,6 @@ impl fmt::Display for Settings {
         )?;
         memory.map_or(Ok(()), |bytes| write!(f, " memory={bytes}"))
     }
-}
-
-fn none_of<'a>(value: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    let known: Vec<_> = known.into_iter().collect();
-    format!("'{value}' is none of {}", known.join(", "))
 }
 
 #[cfg(test)]

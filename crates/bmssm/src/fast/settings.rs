@@ -3,9 +3,9 @@
 use crate::{general, raster};
 use accel::KernelId;
 use accel::objects::BLOCK;
+use accel::settings::{self, none_of, number};
 use accel::simd::Level;
 use std::fmt;
-use std::str::FromStr;
 
 /// Settings of `bmssm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,20 +55,14 @@ impl Settings {
     /// Says what is wrong.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
         match name {
-            "kernel" => {
-                self.kernel = KernelId::from_id(value)
-                    .ok_or_else(|| none_of(value, KernelId::ALL.map(KernelId::id)))?;
-            }
-            "simd" => {
-                let level = Level::from_id(value).filter(|level| level.available());
-                self.simd = level.ok_or_else(|| none_of(value, Level::here().map(Level::id)))?;
-            }
+            "kernel" => self.kernel = settings::kernel(value)?,
+            "simd" => self.simd = settings::simd(value)?,
             "stretch" if value == "auto" => self.stretch = None,
             "stretch" => self.stretch = Some(number(value, BLOCK, general::MOST_STRETCH)?),
             "tile" => self.tile = number(value, 1, 16)?,
             "depth_bits" => self.depth_bits = number(value, 0, 8)?,
             "apart" => self.apart = number(value, 1, 1 << 16)?,
-            "memory" => self.memory = Some(number(value, 0, u128::MAX)?),
+            "memory" => self.memory = Some(settings::bytes(value)?),
             _ => return Err(none_of(name, Self::NAMES.map(|(name, _)| name))),
         }
         Ok(())
@@ -91,21 +85,4 @@ impl fmt::Display for Settings {
         )?;
         memory.map_or(Ok(()), |bytes| write!(f, " memory={bytes}"))
     }
-}
-
-fn number<T: FromStr + PartialOrd + fmt::Display + Copy>(
-    value: &str,
-    least: T,
-    most: T,
-) -> Result<T, String> {
-    match value.parse() {
-        Ok(number) if (least..=most).contains(&number) => Ok(number),
-        Ok(_) => Err(format!("'{value}' is not from {least} to {most}")),
-        Err(_) => Err(format!("'{value}' is not a whole number")),
-    }
-}
-
-fn none_of<'a>(value: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    let known: Vec<_> = known.into_iter().collect();
-    format!("'{value}' is none of {}", known.join(", "))
 }
