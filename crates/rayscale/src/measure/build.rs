@@ -44,7 +44,8 @@ pub fn build_all<'s>(
             let (choice, need) = &wanted[i];
             let built = &mut all[i];
             let spent: u64 = built.build_ns.iter().sum();
-            if built.accel.is_ok() && u128::from(spent) < options.build_time.as_nanos() {
+            let more = round < options.least_builds || u128::from(spent) < options.build_time.as_nanos();
+            if built.accel.is_ok() && more {
                 timed(scene, choice, need, Clock::of(options.threads), built);
             }
         }

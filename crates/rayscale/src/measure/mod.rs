@@ -41,6 +41,8 @@ pub struct Options {
     pub cell_time: Duration,
     /// Most samples of a build.
     pub build_rounds: usize,
+    /// Fewest samples of a build, whatever the time.
+    pub least_builds: usize,
     /// Time for the samples of a structure's build, likewise.
     pub build_time: Duration,
     /// Ray-object tests of brute force for the check of a ray set.
@@ -64,7 +66,8 @@ impl Default for Options {
             rounds: 7,
             least_rounds: 3,
             cell_time: Duration::from_millis(250),
-            build_rounds: 3,
+            build_rounds: 5,
+            least_builds: 3,
             build_time: Duration::from_millis(300),
             check_tests: speed * 100_000_000,
             exact_rays: 500,

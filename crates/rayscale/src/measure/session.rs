@@ -122,6 +122,7 @@ fn share_of_time(session: &Session, choices: &[Choice], scenes: usize) -> Option
         let share = left / cells.max(1) as u32;
         options.cell_time = options.cell_time.min(share.mul_f64(0.2));
         options.sample_time = options.sample_time.min(share / 2);
+        options.least_builds = 1;
         options.build_time = options.build_time.min(4 * options.cell_time);
     }
     options
