@@ -2,8 +2,9 @@
 //! force answers with that kernel, and with the exact kernel what the oracle says.
 
 use accel::baseline::Brute;
-use accel::exact::{Oracle, Verdict, classify};
+use accel::exact::{Verdict, classify};
 use accel::{Accel, Builder, Geometry, Hit, KernelId, Need, RaySet, Scene};
+use rayscale::check::oracle_of;
 use rayscale::rays::{RaysId, RaysSpec, generate};
 use rayscale::registry;
 use rayscale::scene::{self, SceneSpec};
@@ -41,8 +42,8 @@ fn denormal(t: f64) -> bool {
 /// Rays compared, all structures counted together.
 fn check(id: &str, side: u32) -> usize {
     let scene = load(id);
-    let Geometry::Triangles(mesh) = &scene.geometry else { panic!("{id} has no triangles") };
-    let oracle = Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)));
+    assert!(matches!(scene.geometry, Geometry::Triangles(_)), "{id} has no triangles");
+    let oracle = oracle_of(&scene);
     let sets = ray_sets(&scene, side);
     let mut compared = 0;
     for kernel in KernelId::ALL {

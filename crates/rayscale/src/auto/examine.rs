@@ -1,14 +1,13 @@
 //! Errors of kernels on a scene's rays.
 
 use crate::answers::Answers;
-use crate::check::judge;
+use crate::check::{judge, oracle_of};
 use crate::rayset::{Workload, pick, sample};
 use crate::record::Query;
 use crate::registry;
 use crate::units;
-use accel::baseline::Brute;
 use accel::exact::Oracle;
-use accel::{Accel, Builder, Geometry, KernelId, Need, RaySet, Scene};
+use accel::{Accel, KernelId, RaySet, Scene};
 use std::fmt;
 
 /// Wrong answers among rays.
@@ -91,7 +90,7 @@ pub struct Examiner<'s> {
 impl<'s> Examiner<'s> {
     /// Looks at no more than `most` rays of all workloads together, spread evenly.
     pub fn new(scene: &'s Scene, workloads: &[Workload], most: usize) -> Self {
-        let exact = quick(scene, KernelId::Exact);
+        let exact = registry::quick(scene, KernelId::Exact);
         let share = most / workloads.len().max(1);
         let know = |workload: &Workload| {
             let numbers = sample(workload.rays.len(), share);
@@ -105,7 +104,7 @@ impl<'s> Examiner<'s> {
 
     /// A kernel's errors for each workload.
     pub fn examine(&mut self, kernel: KernelId) -> Vec<Wrong> {
-        let accel = quick(self.scene, kernel);
+        let accel = registry::quick(self.scene, kernel);
         (0..self.known.len()).map(|i| self.one(i, accel.as_ref())).collect()
     }
 
@@ -132,7 +131,7 @@ impl<'s> Examiner<'s> {
                 let differ = |i: &usize| object(&hits[*i]) != object(&exact[*i]);
                 let numbers: Vec<usize> = (0..rays.len()).filter(differ).collect();
                 if !numbers.is_empty() {
-                    let oracle = self.oracle.get_or_insert_with(|| oracle(self.scene));
+                    let oracle = self.oracle.get_or_insert_with(|| oracle_of(self.scene));
                     let errors = judge(oracle, rays, &hits, &numbers);
                     wrong.missed = errors.missed;
                     wrong.false_hits = errors.false_hits;
@@ -152,22 +151,6 @@ impl<'s> Examiner<'s> {
         }
         wrong
     }
-}
-
-fn oracle(scene: &Scene) -> Oracle {
-    match &scene.geometry {
-        Geometry::Triangles(mesh) => Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i))),
-        Geometry::Boxes(_) => Oracle::new([]),
-    }
-}
-
-/// Something quick that answers what brute force would with that kernel.
-fn quick(scene: &Scene, kernel: KernelId) -> Box<dyn Accel + '_> {
-    let grid = registry::parse(&format!("ssm:kernel={kernel}")).ok();
-    let built = grid.and_then(|choice| choice.builder.build(scene, &Need::GENERAL).ok());
-    built.unwrap_or_else(|| {
-        Brute::new(kernel).build(scene, &Need::GENERAL).expect("brute force serves every scene")
-    })
 }
 
 #[cfg(test)]
@@ -191,7 +174,7 @@ mod tests {
     fn errors_are_found_and_judged() {
         use crate::rays::{RaysId, RaysSpec, generate};
         let scene = scene::load(&"bumps-1k@offset=1e5,0,0".parse().unwrap()).unwrap();
-        let tracer = quick(&scene, KernelId::Exact);
+        let tracer = registry::quick(&scene, KernelId::Exact);
         let spec = RaysSpec { id: RaysId::LeakVertex, rows: 40, cols: 40, seed: 1 };
         let rays = generate(&scene, &spec, tracer.as_ref()).unwrap();
         let workload = |query| Workload { id: "aimed".into(), rays: rays.clone(), query };

@@ -3,8 +3,16 @@
 use crate::record::Errors;
 use crate::stats::quantile;
 use accel::exact::{Oracle, Verdict, classify};
-use accel::{Hit, RaySet};
+use accel::{Geometry, Hit, RaySet, Scene};
 use rayon::prelude::*;
+
+/// The oracle of a scene's triangles; of boxes it knows nothing.
+pub fn oracle_of(scene: &Scene) -> Oracle {
+    match &scene.geometry {
+        Geometry::Triangles(mesh) => Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i))),
+        Geometry::Boxes(_) => Oracle::new([]),
+    }
+}
 
 /// Judges the hits of the rays `numbers` by the exact ones.
 ///

@@ -1,11 +1,11 @@
 //! Rays from inside closed meshes, none of which may get out.
 
-use crate::measure::guard;
+use super::oracle_of;
+use crate::measure::{guard, guarded_build};
 use crate::rays::{RaysError, RaysId, RaysSpec, generate};
 use crate::registry::Choice;
 use crate::scene::{self, SceneError};
 use accel::baseline::Brute;
-use accel::exact::Oracle;
 use accel::{Builder, Geometry, KernelId, Need, Scene};
 use serde::Serialize;
 
@@ -130,11 +130,7 @@ fn one_mesh(
         error: None,
     };
     let mut rows: Vec<LeakRow> = choices.iter().map(blank).collect();
-    let build = |choice: &Choice| match guard("the build", || choice.builder.build(scene, &Need::GENERAL)) {
-        Ok(built) => built.map_err(|error| error.to_string()),
-        Err(error) => Err(error),
-    };
-    let built: Vec<_> = choices.iter().map(build).collect();
+    let built: Vec<_> = choices.iter().map(|choice| guarded_build(choice, scene, &Need::GENERAL)).collect();
     for (kind, id) in SETS.into_iter().enumerate() {
         let rays = generate(scene, &RaysSpec { id, rows: side, cols: side, seed }, tracer.as_ref())?;
         count += rays.len() as u64;
@@ -153,11 +149,6 @@ fn one_mesh(
         }
     }
     Ok((count, rows))
-}
-
-fn oracle_of(scene: &Scene) -> Oracle {
-    let Geometry::Triangles(mesh) = &scene.geometry else { return Oracle::new([]) };
-    Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)))
 }
 
 #[cfg(test)]

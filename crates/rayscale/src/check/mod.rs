@@ -8,5 +8,5 @@ pub mod sweep;
 #[cfg(test)]
 mod tests;
 
-pub use errors::judge;
+pub use errors::{judge, oracle_of};
 pub use reference::{Reference, compare};

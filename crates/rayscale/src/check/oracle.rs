@@ -1,11 +1,12 @@
 //! Structures with a kernel that claims to be exact, against the oracle.
 
+use super::oracle_of;
 use super::sweep::unavailable;
-use crate::measure::{Session, guard, workloads};
+use crate::measure::{Session, guard, guarded_build, workloads};
 use crate::rays::{Query, RaysId};
 use crate::registry::Choice;
 use crate::scene::{self, SceneError};
-use accel::exact::{ExactHit, Oracle, Verdict, classify};
+use accel::exact::{ExactHit, Verdict, classify};
 use accel::{Geometry, Hit, Need, RaySet, Scene};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -121,14 +122,15 @@ pub fn run(
 }
 
 fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, tally: &mut OracleTally) {
-    let Geometry::Triangles(mesh) = &scene.geometry else { return };
-    let oracle = Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)));
+    if !matches!(scene.geometry, Geometry::Triangles(_)) {
+        return;
+    }
+    let oracle = oracle_of(scene);
     let rays = plan.rays.iter().copied().filter(|id| id.query() == Query::Closest).collect();
     let session = Session { rays, size: plan.size, seed, ..Session::default() };
     let workloads = workloads(&session, scene, &mut Vec::new());
     let choices = crate::auto::resolve(choices, scene, &workloads);
-    let general: Vec<_> =
-        choices.iter().map(|c| guard("the build", || c.builder.build(scene, &Need::GENERAL))).collect();
+    let general: Vec<_> = choices.iter().map(|c| guarded_build(c, scene, &Need::GENERAL)).collect();
     for workload in &workloads {
         let rays = &workload.rays;
         let truth: Vec<_> = (0..rays.len()).into_par_iter().map(|i| oracle.closest(&rays.ray(i))).collect();
@@ -143,15 +145,14 @@ fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, ta
             let by_need;
             let built = match rays {
                 RaySet::Raster(_) if choice.entry.traits.by_need => {
-                    by_need = guard("the build", || choice.builder.build(scene, &Need::of(rays)));
+                    by_need = guarded_build(choice, scene, &Need::of(rays));
                     &by_need
                 }
                 _ => &general[row],
             };
             let mut hits = vec![None; rays.len()];
             let traced = match built {
-                Ok(Ok(accel)) => guard("tracing", || accel.trace(rays, &mut hits)),
-                Ok(Err(error)) => Err(error.to_string()),
+                Ok(accel) => guard("tracing", || accel.trace(rays, &mut hits)),
                 Err(error) => Err(error.clone()),
             };
             if let Err(error) = traced {

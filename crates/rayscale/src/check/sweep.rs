@@ -175,11 +175,6 @@ const QUERIES: [Query; 2] = [Query::Closest, Query::Occluded];
 /// every object would take hours.
 const SET_TIME: Duration = Duration::from_millis(250);
 
-/// The kernel that a structure must agree with.
-fn kernel(choice: &Choice) -> KernelId {
-    KernelId::from_id(choice.kernel()).unwrap_or(KernelId::MollerTrumbore)
-}
-
 /// What one structure showed on one scene.
 #[derive(Default)]
 struct Found {
@@ -229,7 +224,7 @@ fn one_choice(sweep: &Sweep, scene: &Scene, choice: &Choice, sets: &[Set]) -> Fo
                 None => in_time(accel.as_ref(), rays, query, SET_TIME),
             };
             let place = format!("{}: {} {} {query:?}", choice.spec, scene.id, set.set.id);
-            let right = set.right(sweep, scene, &rays, query, kernel(choice));
+            let right = set.right(sweep, scene, &rays, query, choice.reference_kernel());
             one_set(choice, accel.as_ref(), &rays, &right, query, &place, &mut found);
         }
         built = Some((need, accel));

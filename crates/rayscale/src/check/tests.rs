@@ -4,8 +4,7 @@ use super::*;
 use crate::answers::Answers;
 use crate::record::Query;
 use crate::testing;
-use accel::exact::Oracle;
-use accel::{Accel, Footprint, Geometry, Hit, KernelId, Need, Ray, RaySet, Scene};
+use accel::{Accel, Footprint, Hit, KernelId, Need, Ray, RaySet, Scene};
 
 /// A structure that is right but for every 1000th ray of a trace.
 struct Faulty<'a> {
@@ -102,8 +101,7 @@ fn a_sample_compares_what_it_says() {
 #[test]
 fn wrong_answers_are_told_apart_by_the_oracle() {
     let (scene, inside) = testing::from_inside(600);
-    let Geometry::Triangles(mesh) = &scene.geometry else { panic!() };
-    let oracle = Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)));
+    let oracle = oracle_of(&scene);
     let choice = crate::registry::parse("brute:kernel=watertight").unwrap();
     let mut answers = Answers::new(Query::Closest, inside.len());
     answers.trace(choice.builder.build(&scene, &Need::GENERAL).unwrap().as_ref(), &inside);

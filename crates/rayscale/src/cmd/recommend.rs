@@ -131,7 +131,6 @@ fn quick(console: &Console, builds_count: bool) -> Options {
         cell_time: Duration::from_millis(150),
         sample_time: Duration::from_millis(400),
         build_rounds: if builds_count { 3 } else { 1 },
-        build_time: Duration::from_millis(300),
         check_tests: usual.check_tests / 4,
         exact_rays: 200,
         ..usual

@@ -53,13 +53,18 @@ pub fn build_all<'s>(
     Some(all)
 }
 
-fn build<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Result<Box<dyn Accel + 's>, String> {
+/// Builds; what the builder refuses and what it panics with are both told in words.
+pub fn guarded_build<'s>(
+    choice: &Choice,
+    scene: &'s Scene,
+    need: &Need,
+) -> Result<Box<dyn Accel + 's>, String> {
     guard("the build", || choice.builder.build(scene, need))
         .and_then(|built| built.map_err(|e| e.to_string()))
 }
 
 fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Built<'s> {
-    let (accel, used) = heap::observe(|| build(scene, choice, need));
+    let (accel, used) = heap::observe(|| guarded_build(choice, scene, need));
     let used = used.filter(|_| choice.entry.traits.counted);
     let bytes = accel.as_ref().ok().map(|accel| {
         let footprint = accel.footprint();
@@ -80,7 +85,7 @@ fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Built<'s> {
 
 fn timed<'s>(scene: &'s Scene, choice: &Choice, need: &Need, clock: Clock, built: &mut Built<'s>) {
     let start = clock.now_of_build();
-    let again = build(scene, choice, need);
+    let again = guarded_build(choice, scene, need);
     let ns = clock.now_of_build() - start;
     if again.is_ok() {
         built.build_ns.push(ns);

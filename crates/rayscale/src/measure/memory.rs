@@ -1,6 +1,6 @@
 //! ν_mem of a scene by resolution, three ways.
 
-use super::guard::guard;
+use super::build::guarded_build;
 use crate::record::{Layout, MemoryRow};
 use crate::registry;
 use accel::{Footprint, Group, Need, Scene};
@@ -38,8 +38,7 @@ fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>) -> MemoryRow {
 
 fn footprint(scene: &Scene, spec: &str) -> Result<Footprint, String> {
     let choice = registry::parse(spec).map_err(|error| error.to_string())?;
-    let built = guard("the build", || choice.builder.build(scene, &Need::GENERAL))?;
-    built.map(|accel| accel.footprint()).map_err(|error| error.to_string())
+    guarded_build(&choice, scene, &Need::GENERAL).map(|accel| accel.footprint())
 }
 
 fn added(footprint: &Footprint) -> f64 {

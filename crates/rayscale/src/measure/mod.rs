@@ -17,6 +17,7 @@ mod tests;
 mod trace;
 mod watch;
 
+pub use build::guarded_build;
 pub use guard::guard;
 pub use memory::{RESOLUTIONS, memory_rows};
 pub use pace::in_time;

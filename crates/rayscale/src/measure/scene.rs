@@ -7,7 +7,7 @@ use super::pace::in_time;
 use super::trace::{Runner, rounds};
 use super::watch::Watch;
 use crate::answers::Answers;
-use crate::check::{Reference, compare, judge};
+use crate::check::{Reference, compare, judge, oracle_of};
 use crate::rayset::{Workload, sample, thin};
 use crate::record::{Cell, Check, Query};
 use crate::registry::Choice;
@@ -125,8 +125,8 @@ impl<'s> References<'s> {
     }
 
     fn oracle(&mut self) -> Option<&Oracle> {
-        if let (None, Geometry::Triangles(mesh)) = (&self.oracle, &self.scene.geometry) {
-            self.oracle = Some(Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i))));
+        if let (None, Geometry::Triangles(_)) = (&self.oracle, &self.scene.geometry) {
+            self.oracle = Some(oracle_of(self.scene));
         }
         self.oracle.as_ref()
     }
@@ -237,7 +237,7 @@ fn check(
     checked: &mut Vec<(KernelId, usize, Reference)>,
     refs: &mut References,
 ) -> Check {
-    let kernel = KernelId::from_id(choice.kernel()).unwrap_or(KernelId::MollerTrumbore);
+    let kernel = choice.reference_kernel();
     let query = match answers {
         Answers::Closest(_) => Query::Closest,
         Answers::Occluded(_) => Query::Occluded,

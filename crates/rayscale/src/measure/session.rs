@@ -12,7 +12,7 @@ use crate::rayset::Workload;
 use crate::record::{FORMAT, Query, Record, Run, SceneEntry, Skipped, Structure, Suite};
 use crate::registry::{self, Choice};
 use crate::scene::{self, SceneError, SceneSpec};
-use accel::{Accel, Need, Scene};
+use accel::{KernelId, Scene};
 use std::collections::BTreeSet;
 use std::time::SystemTime;
 
@@ -222,7 +222,7 @@ pub fn begin(session: &Session, choices: &[Choice]) -> Record {
 
 /// The ray sets of a scene; one that has no rays there is skipped.
 pub fn workloads(session: &Session, scene: &Scene, skipped: &mut Vec<Skipped>) -> Vec<Workload> {
-    let tracer = tracer_of(scene);
+    let tracer = registry::quick(scene, KernelId::MollerTrumbore);
     let mut all = Vec::new();
     for id in &session.rays {
         let spec = RaysSpec { id: *id, rows: session.size, cols: session.size, seed: session.seed };
@@ -238,14 +238,4 @@ pub fn workloads(session: &Session, scene: &Scene, skipped: &mut Vec<Skipped>) -
         }
     }
     all
-}
-
-/// Something quick that answers what brute force would, for rays that start from hits.
-fn tracer_of(scene: &Scene) -> Box<dyn Accel + '_> {
-    let grid =
-        registry::parse("ssm").ok().and_then(|choice| choice.builder.build(scene, &Need::GENERAL).ok());
-    grid.unwrap_or_else(|| {
-        let brute = registry::parse("brute").expect("brute force is an entry");
-        brute.builder.build(scene, &Need::GENERAL).expect("brute force serves every scene")
-    })
 }

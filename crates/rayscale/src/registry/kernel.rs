@@ -72,6 +72,12 @@ impl ChosenKernel {
 }
 
 impl Choice {
+    /// The kernel of the brute force that answers are compared with: the structure's, or Möller–Trumbore for one
+    /// that brings its own.
+    pub fn reference_kernel(&self) -> KernelId {
+        KernelId::from_id(self.kernel()).unwrap_or(KernelId::MollerTrumbore)
+    }
+
     /// The same structure with a kernel that was chosen for the user.
     ///
     /// # Panics

@@ -13,7 +13,8 @@ pub use kernel::{AUTO, ChosenKernel};
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 
 use crate::near::near;
-use accel::{Builder, RaySet};
+use accel::baseline::Brute;
+use accel::{Accel, Builder, KernelId, Need, RaySet, Scene};
 use std::sync::Arc;
 
 /// A structure that can be built.
@@ -146,6 +147,18 @@ pub fn choose(spec: &StructureSpec) -> Result<Choice, RegistryError> {
 /// As [`choose`]; also what can't be read.
 pub fn parse(text: &str) -> Result<Choice, RegistryError> {
     choose(&text.parse()?)
+}
+
+/// Something quick that answers what brute force would with that kernel.
+///
+/// # Panics
+/// If it can't be built for want of memory, and brute force neither.
+pub fn quick(scene: &Scene, kernel: KernelId) -> Box<dyn Accel + '_> {
+    let grid = parse(&format!("ssm:kernel={kernel}")).ok();
+    let built = grid.and_then(|choice| choice.builder.build(scene, &Need::GENERAL).ok());
+    built.unwrap_or_else(|| {
+        Brute::new(kernel).build(scene, &Need::GENERAL).expect("brute force serves every scene")
+    })
 }
 
 /// The structures of the default comparison.

@@ -1,7 +1,7 @@
 //! Pictures of a record's scenes, for those that are on this machine.
 
 use super::html::{Picture, Pictures};
-use crate::measure::guard;
+use crate::measure::{guard, guarded_build};
 use crate::picture::{Differences, Shading, difference, shade, write_png};
 use crate::rays::perspective;
 use crate::record::{Record, SceneEntry};
@@ -52,7 +52,7 @@ fn render(record: &Record, entry: &SceneEntry) -> Option<Vec<Picture>> {
 
 fn hits(structure: &str, scene: &Scene, rays: &RaySet) -> Option<Vec<Option<Hit>>> {
     let choice = registry::parse(structure).ok()?;
-    let accel = guard("the build", || choice.builder.build(scene, &Need::of(rays))).ok()?.ok()?;
+    let accel = guarded_build(&choice, scene, &Need::of(rays)).ok()?;
     let mut hits = vec![None; rays.len()];
     guard("tracing", || accel.trace(rays, &mut hits)).ok()?;
     Some(hits)

@@ -9,8 +9,9 @@ pub use accuracy::{Accuracy, Truth, judge};
 pub use plot::svg;
 pub use row::{Row, mark_front, table};
 
+use crate::check::oracle_of;
 use crate::machine::Machine;
-use crate::measure::{Job, Options, Session, guard, measure, workloads};
+use crate::measure::{Job, Options, Session, guard, guarded_build, measure, workloads};
 use crate::rays::RaysId;
 use crate::rayset::Workload;
 use crate::record::{SceneEntry, Skipped, Suite};
@@ -124,7 +125,7 @@ pub fn run(plan: &Plan, choices: &[Choice], mut tell: impl FnMut(&str)) -> Resul
             source: loaded.source.clone(),
             checksum: scene::checksum(&loaded.scene.geometry),
         });
-        let oracle = Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i)));
+        let oracle = oracle_of(&loaded.scene);
         let mut rows = one_scene(plan, &loaded.scene, choices, &oracle, &mut trade.skipped);
         mark_front(&mut rows);
         trade.rows.extend(rows);
@@ -169,12 +170,10 @@ fn one_scene(
             front: false,
             error: mine.iter().find_map(|cell| cell.error.clone()),
         };
-        match guard("the build", || choice.builder.build(scene, &Need::GENERAL)) {
-            Ok(Ok(accel)) => match guard("tracing", || judge(accel.as_ref(), &truths, extent)) {
-                Ok(accuracy) => row.accuracy = Some(accuracy),
-                Err(error) => row.error = Some(error),
-            },
-            Ok(Err(error)) => row.error = Some(error.to_string()),
+        let accuracy = guarded_build(choice, scene, &Need::GENERAL)
+            .and_then(|accel| guard("tracing", || judge(accel.as_ref(), &truths, extent)));
+        match accuracy {
+            Ok(accuracy) => row.accuracy = Some(accuracy),
             Err(error) => row.error = Some(error),
         }
         rows.push(row);

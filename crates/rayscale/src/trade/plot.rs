@@ -1,6 +1,8 @@
 //! The plot: ns per ray against errors in a million rays, a panel for each scene.
 
 use super::{Row, Trade};
+use crate::palette;
+use crate::report::html::escape;
 use std::fmt::Write;
 
 const COLUMNS: usize = 3;
@@ -12,11 +14,6 @@ const EDGE: f64 = 10.0;
 
 /// Rows without an error are drawn here, below one in a million rays.
 const NONE: f64 = 0.3;
-
-const COLOURS: [&str; 12] = [
-    "#1b6ca8", "#d1495b", "#3c8d2f", "#8e44ad", "#c77d0a", "#0f8b8d", "#6b4f3a", "#555555", "#e05fa0",
-    "#7a8a00", "#2f4ea2", "#b03a00",
-];
 
 /// Kernels by the shape of their points.
 const SHAPES: [(&str, &str); 6] = [
@@ -50,7 +47,7 @@ pub fn svg(trade: &Trade) -> String {
             out,
             "<circle cx=\"{x}\" cy=\"{}\" r=\"4\" fill=\"{}\"/><text x=\"{}\" y=\"{y}\">{}</text>",
             y - 3.0,
-            colour(&ids, id),
+            palette::of(id).light,
             x + 8.0,
             escape(id)
         );
@@ -69,7 +66,7 @@ pub fn svg(trade: &Trade) -> String {
     for (i, scene) in scenes.iter().enumerate() {
         let corner = ((i % COLUMNS) as f64 * PANEL.0, LEGEND + (i / COLUMNS) as f64 * PANEL.1);
         let rows: Vec<&Row> = trade.rows.iter().filter(|row| row.scene == *scene).collect();
-        panel(&mut out, corner, scene, &rows, &ids);
+        panel(&mut out, corner, scene, &rows);
     }
     out.push_str("</svg>\n");
     out
@@ -77,11 +74,6 @@ pub fn svg(trade: &Trade) -> String {
 
 fn family(row: &Row) -> &str {
     row.structure.split(':').next().unwrap_or_default()
-}
-
-fn colour(ids: &[&str], id: &str) -> &'static str {
-    let place = ids.iter().position(|other| *other == id).unwrap_or(0);
-    COLOURS[place % COLOURS.len()]
 }
 
 /// A point with a title that shows under the pointer.
@@ -96,7 +88,7 @@ fn point(out: &mut String, (x, y): (f64, f64), kernel: &str, colour: &str, fille
     );
 }
 
-fn panel(out: &mut String, (left, top): (f64, f64), scene: &str, rows: &[&Row], ids: &[&str]) {
+fn panel(out: &mut String, (left, top): (f64, f64), scene: &str, rows: &[&Row]) {
     let points: Vec<(&Row, f64, f64)> =
         rows.iter().filter_map(|row| row.point().map(|(ns, errors)| (*row, ns, errors))).collect();
     let decade = |pick: fn(f64, f64) -> f64, start: f64| points.iter().map(|p| p.1).fold(start, pick).log10();
@@ -145,13 +137,9 @@ fn panel(out: &mut String, (left, top): (f64, f64), scene: &str, rows: &[&Row], 
         for (row, ns, errors) in points.iter().filter(|(row, ..)| row.front == front) {
             let title = format!("{}: {ns:.0} ns, {errors:.1} in a million", row.structure);
             let place = (x_of(*ns), y_of(*errors));
-            point(out, place, &row.kernel, colour(ids, family(row)), front, &title);
+            point(out, place, &row.kernel, palette::of(family(row)).light, front, &title);
         }
     }
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

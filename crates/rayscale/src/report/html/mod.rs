@@ -19,7 +19,7 @@ use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use style::Styles;
-use svg::escape;
+pub(crate) use svg::escape;
 
 /// A picture of a scene.
 #[derive(Clone, Debug)]
