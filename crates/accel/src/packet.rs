@@ -133,7 +133,29 @@ impl LaneRows {
     }
 }
 
-/// The nearest hits so far of `LANES` rays; see [`Nearest`].
+/// What is known of `LANES` tests before they are decided.
+#[derive(Clone, Copy)]
+pub struct Bounds<S: Simd> {
+    /// Which lanes may hit within their range of t.
+    pub open: S::M,
+    /// Which of them certainly hit, at a normal t above the ray's `t_min`.
+    pub sure: S::M,
+    /// What hits does so at this t or above.
+    pub low: S::F,
+    /// What hits does so at this t or below.
+    pub high: S::F,
+}
+
+impl<S: Simd> Bounds<S> {
+    /// All lanes may hit at any t.
+    #[inline(always)]
+    pub fn unknown(s: S) -> Self {
+        let (low, high) = (s.splat(f32::NEG_INFINITY), s.splat(f32::INFINITY));
+        Self { open: s.mask(u32::MAX), sure: s.mask(0), low, high }
+    }
+}
+
+/// The nearest hits so far of `LANES` rays, some of which may be postponed; see [`Nearest`].
 #[derive(Clone, Copy)]
 pub struct NearestPacket<S: Simd> {
     /// Each hit's t, or the ray's `t_max` (−∞ switches a lane off).
@@ -162,6 +184,22 @@ impl<S: Simd> NearestPacket<S> {
         self.take(s, wins, object, lanes);
     }
 
+    /// The lanes whose hits are postponed.
+    #[inline(always)]
+    pub fn postponed(&self, s: S) -> S::M {
+        s.eq(self.v, s.splat(Nearest::POSTPONED))
+    }
+
+    /// Takes and postpones those of the sure hits that come before what is here for certain, and tells which.
+    #[inline(always)]
+    pub fn postpone(&mut self, s: S, object: u32, sure: S::M, bounds: &Bounds<S>) -> S::M {
+        let low = s.select(self.postponed(s), self.u, self.t);
+        let wins = s.and(sure, s.lt(bounds.high, low));
+        let lanes = Lanes { hit: wins, t: bounds.high, u: bounds.low, v: s.splat(Nearest::POSTPONED) };
+        self.take(s, wins, object, &lanes);
+        wins
+    }
+
     /// The lanes where `lanes` hits at the same t as another object before.
     #[inline(always)]
     pub fn ties(&self, s: S, object: u32, lanes: &Lanes<S>) -> S::M {
@@ -179,6 +217,15 @@ impl<S: Simd> NearestPacket<S> {
         self.u = s.select(wins, lanes.u, self.u);
         self.v = s.select(wins, lanes.v, self.v);
         self.object = s.select_u(wins, id, self.object);
+    }
+
+    /// Takes the hits of the lanes `wins`, each on its own object.
+    #[inline(always)]
+    pub fn take_each(&mut self, s: S, wins: S::M, objects: &[u32], lanes: &Lanes<S>) {
+        self.object = s.select_u(wins, s.load_u(objects), self.object);
+        self.t = s.select(wins, lanes.t, self.t);
+        self.u = s.select(wins, lanes.u, self.u);
+        self.v = s.select(wins, lanes.v, self.v);
     }
 
     /// Each lane's result, in the order of lanes.

@@ -79,6 +79,9 @@ impl<B: Blocks> Task for Trace<'_, B> {
                 self.blocks.closest(s, block, mask, ray, best);
             }
         }
+        for (ray, best) in &mut state {
+            self.blocks.settle(ray, best);
+        }
         state.into_iter().map(|(_, best)| best).collect()
     }
 }

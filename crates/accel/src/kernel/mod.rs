@@ -17,7 +17,7 @@ pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
 pub use watertight::Watertight;
 
-use crate::packet::{Common, Lanes, Packet, Vec3Lanes};
+use crate::packet::{Bounds, Common, Lanes, Packet, Vec3Lanes};
 use crate::simd::{ROW, Row, Scalar, Simd};
 use crate::{Ray, Surface, Vec3};
 use std::cmp::Ordering;
@@ -105,6 +105,82 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     ) -> Lanes<S> {
         let _ = (common, rows);
         Self::rays(s, rays, group, lane, t_max)
+    }
+
+    /// Whether [`Kernel::bounds`] tells enough, and for so much less than a decision, that hits are better decided when
+    /// the nearest is known. A sure hit must lie in the triangle and its t, once decided, be correctly rounded.
+    const POSTPONES: bool = false;
+
+    /// What can be told of [`Kernel::triangles`] without a decision; by default nothing.
+    #[inline(always)]
+    fn triangles_bounds<S: Simd>(s: S, ray: &Self::One, group: &[Row], at: usize, t_max: f32) -> Bounds<S> {
+        let _ = (ray, group, at, t_max);
+        Bounds::unknown(s)
+    }
+
+    /// [`Kernel::triangles`] for the lanes `open` only; the others hold no hit.
+    #[inline(always)]
+    fn triangles_decided<S: Simd>(
+        s: S,
+        ray: &Self::One,
+        group: &[Row],
+        at: usize,
+        open: u32,
+        t_max: f32,
+    ) -> Lanes<S> {
+        let lanes = Self::triangles(s, ray, group, at, open, t_max);
+        Lanes { hit: s.and(lanes.hit, s.mask(open)), ..lanes }
+    }
+
+    /// What can be told of [`Kernel::rays`] without a decision; by default nothing.
+    #[inline(always)]
+    fn bounds<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Bounds<S> {
+        let _ = (rays, group, lane, t_max);
+        Bounds::unknown(s)
+    }
+
+    /// [`Kernel::bounds`] for rays with this in common, with the rows prepared for the group.
+    #[inline(always)]
+    fn bounds_prepared<S: Simd>(
+        s: S,
+        rays: &Self::Many<S>,
+        common: &Common,
+        group: &[Row],
+        rows: &[Row],
+        lane: usize,
+        t_max: S::F,
+    ) -> Bounds<S> {
+        let _ = (common, rows);
+        Self::bounds(s, rays, group, lane, t_max)
+    }
+
+    /// [`Kernel::rays`] for the rays `open` only; the others hit nothing.
+    #[inline(always)]
+    fn decide<S: Simd>(
+        s: S,
+        rays: &Self::Many<S>,
+        group: &[Row],
+        lane: usize,
+        open: u32,
+        t_max: S::F,
+    ) -> Lanes<S> {
+        let lanes = Self::rays(s, rays, group, lane, t_max);
+        Lanes { hit: s.and(lanes.hit, s.mask(open)), ..lanes }
+    }
+
+    /// Each of the rays `open` against the triangle in its own lane of a group that [`Kernel::pack`] wrote, at any t of the
+    /// ray's range.
+    #[inline(always)]
+    fn settle<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], open: u32) -> Lanes<S> {
+        let mut rows = [[0.0; ROW]; 3];
+        let mut hits = 0;
+        for lane in (0..S::LANES).filter(|lane| open >> lane & 1 != 0) {
+            let ray = rays.ray(s, lane);
+            let one = Self::triangles(Scalar, &Self::one(&ray), group, lane, 1, ray.t_max);
+            hits |= u32::from(one.hit) << lane;
+            (rows[0][lane], rows[1][lane], rows[2][lane]) = (one.t, one.u, one.v);
+        }
+        Lanes { hit: s.mask(hits), t: s.load(&rows[0]), u: s.load(&rows[1]), v: s.load(&rows[2]) }
     }
 
     /// One ray against one triangle.

@@ -91,6 +91,13 @@ pub(super) struct OneTriangle<'a> {
     corners: Corners,
 }
 
+/// Rays each against the triangle in its own lane of a group.
+#[derive(Clone, Copy)]
+pub(super) struct OneEach<'a> {
+    rays: &'a RayRows,
+    group: &'a [Row],
+}
+
 /// The ray and the triangle that meet in each lane.
 pub(super) trait Pairs {
     fn ray(&self, lane: usize) -> Ray;
@@ -116,6 +123,26 @@ impl<'a> OneTriangle<'a> {
         let g = &group[..9];
         let corner = |k: usize| Vec3::new(g[k].0[lane], g[k + 1].0[lane], g[k + 2].0[lane]);
         Self { rays, corners: [corner(0), corner(3), corner(6)] }
+    }
+}
+
+impl<'a> OneEach<'a> {
+    #[inline(always)]
+    pub(super) fn new(rays: &'a RayRows, group: &'a [Row]) -> Self {
+        Self { rays, group: &group[..9] }
+    }
+}
+
+impl Pairs for OneEach<'_> {
+    #[inline(always)]
+    fn ray(&self, lane: usize) -> Ray {
+        self.rays.ray(lane)
+    }
+    #[inline(always)]
+    fn corners(&self, lane: usize) -> Corners {
+        let g = self.group;
+        let corner = |k: usize| Vec3::new(g[k].0[lane], g[k + 1].0[lane], g[k + 2].0[lane]);
+        [corner(0), corner(3), corner(6)]
     }
 }
 

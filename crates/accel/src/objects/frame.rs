@@ -1,9 +1,9 @@
 //! What is known of a whole mesh when its triangles are tested.
 
 use super::{lawful, pad_of};
-use crate::kernel::Corners;
-use crate::packet::{Common, Packet};
-use crate::simd::Simd;
+use crate::kernel::{Corners, store_rows, sub3};
+use crate::packet::{Common, Packet, Vec3Lanes};
+use crate::simd::{Row, Simd};
 use crate::{Aabb, Mesh, Ray, Vec3};
 
 /// What the law of [`super::Objects`] needs to know of the whole mesh, and the scale at which
@@ -45,6 +45,9 @@ impl Frame {
         Self { pad, center: bounds.center(), near: 4.0 * bounds.extent().max_element(), scale }
     }
 
+    /// Whether hits of rays from there that are in the triangle for certain, with t rounded correctly and normal, keep the law plainly:
+    /// on each axis the origin is at most 4.5 extents E from the first corner, and so is the hit. Rounding t, the relative origin, the
+    /// product and the sum moves the position by 15E·2^-24 in all, a quarter of half the padding E·2^-17.
     #[inline(always)]
     pub(super) fn is_near(&self, origin: Vec3) -> bool {
         (origin - self.center).abs().max_element() <= self.near
@@ -107,27 +110,70 @@ impl Frame {
     }
 }
 
-/// [`Frame::plainly_lawful`] in lanes.
-#[inline(always)]
-pub(super) fn plainly_lawful<S: Simd>(
-    s: S,
-    frame: &Frame,
-    corners: &Corners,
-    rays: &Packet<S>,
-    t: S::F,
-) -> S::M {
-    let [a, b, c] = *corners;
-    let half = Vec3::splat(frame.pad * 0.5);
-    let (edge1, edge2) = (b - a, c - a);
-    let low = edge1.min(edge2).min(Vec3::ZERO) - half;
-    let high = edge1.max(edge2).max(Vec3::ZERO) + half;
-    let mut all = s.mask(u32::MAX);
-    for axis in 0..3 {
-        let from_a = s.sub(rays.origin[axis], s.splat(a[axis]));
-        let position = s.add(from_a, s.mul(rays.direction[axis], t));
-        all = s.and(all, s.and(s.le(s.splat(low[axis]), position), s.le(position, s.splat(high[axis]))));
+/// Within what a hit's position relative to the first corner, rounded, keeps the law plainly.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    first: [f32; 3],
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+/// Rows that hold [`Limits`] of 16 triangles.
+pub(super) const LIMIT_ROWS: usize = 9;
+
+impl Limits {
+    /// Those of [`Frame::plainly_lawful`].
+    #[inline(always)]
+    pub(super) fn of(frame: &Frame, [a, b, c]: &Corners) -> Self {
+        let half = Vec3::splat(frame.pad * 0.5);
+        let (edge1, edge2) = (*b - *a, *c - *a);
+        let low = edge1.min(edge2).min(Vec3::ZERO) - half;
+        let high = edge1.max(edge2).max(Vec3::ZERO) + half;
+        Self { first: a.to_array(), low: low.to_array(), high: high.to_array() }
     }
-    all
+
+    /// Writes those of triangles in lanes to rows from lane `at` on.
+    #[inline(always)]
+    pub(super) fn store<S: Simd>(
+        s: S,
+        frame: &Frame,
+        [a, b, c]: [Vec3Lanes<S>; 3],
+        rows: &mut [Row],
+        at: usize,
+    ) {
+        let half = s.splat(frame.pad * 0.5);
+        let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
+        let zero = s.splat(0.0);
+        let (mut low, mut high) = (edge1, edge1);
+        for axis in 0..3 {
+            low[axis] = s.sub(s.min(s.min(edge1[axis], edge2[axis]), zero), half);
+            high[axis] = s.add(s.max(s.max(edge1[axis], edge2[axis]), zero), half);
+        }
+        store_rows(s, a, &mut rows[0..3], at);
+        store_rows(s, low, &mut rows[3..6], at);
+        store_rows(s, high, &mut rows[6..9], at);
+    }
+
+    /// Those that were stored for a lane.
+    #[inline(always)]
+    pub(super) fn load(rows: &[Row], lane: usize) -> Self {
+        let rows = &rows[..LIMIT_ROWS];
+        let at = |row: usize| [rows[row].0[lane], rows[row + 1].0[lane], rows[row + 2].0[lane]];
+        Self { first: at(0), low: at(3), high: at(6) }
+    }
+
+    /// The rays whose position at t lies within. Where those at two t's do, so do all between, for rounding keeps order.
+    #[inline(always)]
+    pub(super) fn hold<S: Simd>(&self, s: S, rays: &Packet<S>, t: S::F) -> S::M {
+        let mut all = s.mask(u32::MAX);
+        for axis in 0..3 {
+            let from_first = s.sub(rays.origin[axis], s.splat(self.first[axis]));
+            let position = s.add(from_first, s.mul(rays.direction[axis], t));
+            let (low, high) = (s.splat(self.low[axis]), s.splat(self.high[axis]));
+            all = s.and(all, s.and(s.le(low, position), s.le(position, high)));
+        }
+        all
+    }
 }
 
 #[cfg(test)]

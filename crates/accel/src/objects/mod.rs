@@ -90,18 +90,26 @@ pub trait Blocks: Send + Sync {
     /// Prepares `LANES` rays.
     fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Self::Many<S>;
 
-    /// Tests the objects of `block` whose bits are set in `mask`.
+    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be postponed until [`Blocks::settle`].
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest);
 
     /// Whether any object of `block` whose bit is set in `mask` is hit at t in
     /// `[ray.t_min, t_max]`.
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         let mut best = Nearest::new(t_max);
+        // A hit that is postponed is a certain one.
         self.closest(s, block, mask, ray, &mut best);
         best.object != Nearest::NONE
     }
 
-    /// Tests the object of one slot with `LANES` rays.
+    /// Decides what [`Blocks::closest`] postponed: before it, `best` holds an upper bound of t, after it a hit. By default
+    /// nothing is postponed.
+    #[inline(always)]
+    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
+        let _ = (ray, best);
+    }
+
+    /// Tests the object of one slot with `LANES` rays. Hits may be postponed until [`Blocks::settle_packet`].
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>);
 
     /// Rows of values for each 16 slots that [`Blocks::prepare`] computes.
@@ -131,6 +139,12 @@ pub trait Blocks: Send + Sync {
     ) {
         let _ = (common, rows);
         self.packet(s, slot, rays, best);
+    }
+
+    /// [`Blocks::settle`] for what [`Blocks::packet`] postponed.
+    #[inline(always)]
+    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+        let _ = (s, rays, best);
     }
 }
 

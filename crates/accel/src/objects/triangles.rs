@@ -1,10 +1,13 @@
 //! Triangles as objects, with the kernel as a parameter.
 
-use super::frame::{Frame, plainly_lawful};
+mod packets;
+mod single;
+
+use super::frame::{Frame, LIMIT_ROWS, Limits};
 use super::ids::Ids;
 use super::{BLOCK, Blocks, EMPTY_SLOT, Objects};
-use crate::kernel::{Corners, Kernel, load_corners, store_rows, sub3};
-use crate::packet::{Common, Lanes, NearestPacket, Packet, Vec3Lanes};
+use crate::kernel::{Corners, Kernel, load_corners};
+use crate::packet::{Common, NearestPacket, Packet, Vec3Lanes};
 use crate::simd::{ROW, Row, Simd};
 use crate::{Aabb, Mesh, Nearest, Ray, Surface};
 use rayon::prelude::*;
@@ -128,34 +131,6 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         self.triangles.frame.scale == 1.0
     }
 
-    /// Decides the lanes that hit `object` at the same t as another object, and strikes them off `lanes`.
-    #[inline(always)]
-    fn take_ties<S: Simd>(
-        &self,
-        s: S,
-        object: u32,
-        lanes: &mut Lanes<S>,
-        rays: &Packet<S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        let mut ties = s.bits(best.ties(s, object, lanes));
-        if ties == 0 {
-            return;
-        }
-        let settled = s.bits(lanes.hit) & !ties;
-        let mut others = [Nearest::new(0.0); ROW];
-        best.store(s, &mut others);
-        let mut wins = 0;
-        while ties != 0 {
-            let lane = ties.trailing_zeros() as usize;
-            ties &= ties - 1;
-            let wins_here = self.triangles.precedes(&rays.ray(s, lane), object, others[lane].object);
-            wins |= u32::from(wins_here) << lane;
-        }
-        best.take(s, s.mask(wins), object, lanes);
-        lanes.hit = s.mask(settled);
-    }
-
     /// The corners of the triangles in `LANES` slots, where the rows don't hold them.
     #[inline(always)]
     fn gather<S: Simd>(&self, s: S, first: usize) -> [Vec3Lanes<S>; 3] {
@@ -169,81 +144,6 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             }
         }
         rows.map(|corner| corner.map(|row| s.load(&row)))
-    }
-
-    /// Offers those lanes of `hits` that keep the law: those in `plain` whose origins are near, and
-    /// those of the others that the full test finds lawful.
-    #[inline(always)]
-    fn offer<S: Simd>(
-        &self,
-        s: S,
-        slot: usize,
-        rays: &TrianglePacket<S, K::Many<S>>,
-        plain: S::M,
-        mut lanes: Lanes<S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        let hits = s.bits(lanes.hit);
-        let plain = s.bits(s.and(rays.near, plain));
-        let mut open = hits & !plain;
-        if open != 0 {
-            let corners = self.corners(self.group(slot), slot);
-            let mut lawful = hits & plain;
-            let rows = lanes.rows(s);
-            while open != 0 {
-                let lane = open.trailing_zeros() as usize;
-                open &= open - 1;
-                if self.triangles.frame.lawful(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t)
-                {
-                    lawful |= 1 << lane;
-                }
-            }
-            lanes.hit = s.mask(lawful);
-        }
-        let object = self.ids.get(slot);
-        if K::ORDERS_TIES {
-            self.take_ties(s, object, &mut lanes, &rays.rays, best);
-        }
-        best.offer(s, object, &lanes);
-    }
-
-    /// Calls `found` with every lawful hit among the set bits until it says to stop.
-    #[inline(always)]
-    fn visit<S: Simd>(
-        &self,
-        s: S,
-        block: usize,
-        mut mask: u64,
-        ray: &TriangleRay<K::One>,
-        mut t_max: f32,
-        mut found: impl FnMut(u32, Surface) -> Option<f32>,
-    ) {
-        let lanes_mask = u64::MAX >> (64 - S::LANES);
-        while mask != 0 {
-            let first = mask.trailing_zeros() as usize / S::LANES * S::LANES;
-            let wanted = (mask >> first & lanes_mask) as u32;
-            mask &= !(lanes_mask << first);
-            let group = self.group(block * BLOCK + first);
-            let lanes = K::triangles(s, &ray.prepared, group, first % ROW, wanted, t_max);
-            let mut hits = s.bits(lanes.hit) & wanted;
-            if hits == 0 {
-                continue;
-            }
-            let rows = lanes.rows(s);
-            while hits != 0 {
-                let lane = hits.trailing_zeros() as usize;
-                hits &= hits - 1;
-                let slot = block * BLOCK + first + lane;
-                let surface = rows.surface(lane);
-                let corners = self.corners(group, slot);
-                if self.triangles.frame.lawful(&corners, &ray.ray, ray.near, surface.t) {
-                    match found(self.ids.get(slot), surface) {
-                        Some(limit) => t_max = limit,
-                        None => return,
-                    }
-                }
-            }
-        }
     }
 }
 
@@ -280,14 +180,20 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
+        if K::POSTPONES {
+            return self.postpone_nearest(s, block, mask, ray, best);
+        }
         self.visit(s, block, mask, ray, best.t, |object, surface| {
-            best.offer_by(object, surface, |other| self.triangles.precedes(&ray.ray, object, other));
+            self.offer_one(ray, object, surface, best);
             Some(best.t)
         });
     }
 
     #[inline(always)]
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
+        if K::POSTPONES {
+            return self.any_certain(s, block, mask, ray, t_max);
+        }
         let mut any = false;
         self.visit(s, block, mask, ray, t_max, |_, _| {
             any = true;
@@ -297,41 +203,46 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
-        let group = self.group(slot);
-        let lanes = K::rays(s, &rays.prepared, group, slot % ROW, best.t);
-        if s.bits(lanes.hit) == 0 {
-            return;
+    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
+        if K::POSTPONES {
+            self.settle_one(ray, best);
         }
-        let corners = self.corners(group, slot);
-        let plain = plainly_lawful(s, &self.triangles.frame, &corners, &rays.rays, lanes.t);
-        self.offer(s, slot, rays, plain, lanes, best);
     }
 
-    const PREPARED_ROWS: usize = K::PREPARED_ROWS + LIMIT_ROWS;
+    #[inline(always)]
+    fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+        let group = self.group(slot);
+        if K::POSTPONES {
+            let bounds = K::bounds(s, &rays.prepared, group, slot % ROW, best.t);
+            if s.bits(bounds.open) != 0 {
+                self.postpone(s, slot, rays, &bounds, best);
+            }
+            return;
+        }
+        let lanes = K::rays(s, &rays.prepared, group, slot % ROW, best.t);
+        if s.bits(lanes.hit) != 0 {
+            let limits = Limits::of(&self.triangles.frame, &self.corners(group, slot));
+            self.offer(s, slot, rays, &limits, lanes, best);
+        }
+    }
+
+    const PREPARED_ROWS: usize = K::PREPARED_ROWS + if K::POSTPONES { 0 } else { LIMIT_ROWS };
 
     #[inline(always)]
     fn prepare<S: Simd>(&self, s: S, first: usize, common: &Common, rows: &mut [Row]) {
         let group = self.group(first);
-        let (limits, rows) = rows[..Self::PREPARED_ROWS].split_at_mut(LIMIT_ROWS);
-        let half = s.splat(self.triangles.frame.pad * 0.5);
+        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at_mut(K::PREPARED_ROWS);
         for at in (0..ROW).step_by(S::LANES) {
             K::prepare(s, &self.triangles.frame.common(common), group, at, rows);
-            let [a, b, c] = if self.rows_hold_corners() && K::corners(group, 0).is_some() {
+            if K::POSTPONES {
+                continue;
+            }
+            let corners = if self.rows_hold_corners() && K::corners(group, 0).is_some() {
                 load_corners(s, group, at)
             } else {
                 self.gather(s, first + at)
             };
-            let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
-            let zero = s.splat(0.0);
-            let (mut low, mut high) = (edge1, edge1);
-            for axis in 0..3 {
-                low[axis] = s.sub(s.min(s.min(edge1[axis], edge2[axis]), zero), half);
-                high[axis] = s.add(s.max(s.max(edge1[axis], edge2[axis]), zero), half);
-            }
-            store_rows(s, a, &mut limits[0..3], at);
-            store_rows(s, low, &mut limits[3..6], at);
-            store_rows(s, high, &mut limits[6..9], at);
+            Limits::store(s, &self.triangles.frame, corners, limits, at);
         }
     }
 
@@ -347,22 +258,25 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     ) {
         let group = self.group(slot);
         let lane = slot % ROW;
-        let (limits, rows) = rows[..Self::PREPARED_ROWS].split_at(LIMIT_ROWS);
+        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at(K::PREPARED_ROWS);
         let common = &self.triangles.frame.common(common);
-        let lanes = K::rays_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
-        if s.bits(lanes.hit) == 0 {
+        if K::POSTPONES {
+            let bounds = K::bounds_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
+            if s.bits(bounds.open) != 0 {
+                self.postpone(s, slot, rays, &bounds, best);
+            }
             return;
         }
-        let mut plain = s.mask(u32::MAX);
-        for axis in 0..3 {
-            let [a, low, high] = [limits[axis].0[lane], limits[3 + axis].0[lane], limits[6 + axis].0[lane]];
-            let from_a = s.sub(rays.rays.origin[axis], s.splat(a));
-            let position = s.add(from_a, s.mul(rays.rays.direction[axis], lanes.t));
-            plain = s.and(plain, s.and(s.le(s.splat(low), position), s.le(position, s.splat(high))));
+        let lanes = K::rays_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
+        if s.bits(lanes.hit) != 0 {
+            self.offer(s, slot, rays, &Limits::load(limits, lane), lanes, best);
         }
-        self.offer(s, slot, rays, plain, lanes, best);
+    }
+
+    #[inline(always)]
+    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+        if K::POSTPONES {
+            self.settle_lanes(s, rays, u32::MAX, best);
+        }
     }
 }
-
-/// Rows that hold each triangle's first corner and the limits of [`Frame::plainly_lawful`].
-const LIMIT_ROWS: usize = 9;

@@ -132,6 +132,18 @@ impl Simd for Avx2 {
         })
     }
     #[inline(always)]
+    fn load_u(self, from: &[u32]) -> Self::U {
+        let from = &from[..8];
+        // SAFETY: the token proves the feature; the slice has 8 integers.
+        unsafe { _mm256_loadu_si256(from.as_ptr().cast()) }
+    }
+    #[inline(always)]
+    fn load_short(self, from: &[u16]) -> Self::F {
+        let from = &from[..8];
+        // SAFETY: the token proves the feature; the slice has 8 short integers.
+        unsafe { _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(from.as_ptr().cast()))) }
+    }
+    #[inline(always)]
     fn store_u(self, v: Self::U, to: &mut [u32]) {
         let to = &mut to[..8];
         // SAFETY: the token proves the feature; the slice has 8 integers.

@@ -125,6 +125,18 @@ impl Simd for Avx512 {
         intrinsic!(_mm512_cmplt_epu32_mask(a, b))
     }
     #[inline(always)]
+    fn load_u(self, from: &[u32]) -> Self::U {
+        let from = &from[..16];
+        // SAFETY: the token proves the features; the slice has 16 integers.
+        unsafe { _mm512_loadu_epi32(from.as_ptr().cast()) }
+    }
+    #[inline(always)]
+    fn load_short(self, from: &[u16]) -> Self::F {
+        let from = &from[..16];
+        // SAFETY: the token proves the features; the slice has 16 short integers.
+        unsafe { _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256(from.as_ptr().cast()))) }
+    }
+    #[inline(always)]
     fn store_u(self, v: Self::U, to: &mut [u32]) {
         let to = &mut to[..16];
         // SAFETY: the token proves the features; the slice has 16 integers.

@@ -90,11 +90,21 @@ pub trait Simd: Copy + Send + Sync + 'static {
     fn select_u(self, m: Self::M, a: Self::U, b: Self::U) -> Self::U;
     /// a < b, unsigned
     fn lt_u(self, a: Self::U, b: Self::U) -> Self::M;
+    /// The first `LANES` integers of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn load_u(self, from: &[u32]) -> Self::U;
     /// Writes the lanes to the front of a slice.
     ///
     /// # Panics
     /// If the slice is shorter than `LANES`.
     fn store_u(self, v: Self::U, to: &mut [u32]);
+    /// The first `LANES` short integers of a slice as floats, which is exact.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn load_short(self, from: &[u16]) -> Self::F;
 
     /// The bits that a path through three maps meets; see [`path::Path`].
     #[inline(always)]

@@ -126,6 +126,18 @@ impl Simd for Neon {
         intrinsic!(vcltq_u32(a, b))
     }
     #[inline(always)]
+    fn load_u(self, from: &[u32]) -> Self::U {
+        let from = &from[..4];
+        // SAFETY: NEON is always present; the slice has 4 integers.
+        unsafe { vld1q_u32(from.as_ptr()) }
+    }
+    #[inline(always)]
+    fn load_short(self, from: &[u16]) -> Self::F {
+        let from = &from[..4];
+        // SAFETY: NEON is always present; the slice has 4 short integers.
+        unsafe { vcvtq_f32_u32(vmovl_u16(vld1_u16(from.as_ptr()))) }
+    }
+    #[inline(always)]
     fn store_u(self, v: Self::U, to: &mut [u32]) {
         let to = &mut to[..4];
         // SAFETY: NEON is always present; the slice has 4 integers.

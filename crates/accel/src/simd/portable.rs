@@ -104,6 +104,14 @@ impl Simd for Portable {
         zip(a, b, |a, b| a < b)
     }
     #[inline(always)]
+    fn load_u(self, from: &[u32]) -> Self::U {
+        [from[0], from[1], from[2], from[3]]
+    }
+    #[inline(always)]
+    fn load_short(self, from: &[u16]) -> Self::F {
+        [f32::from(from[0]), f32::from(from[1]), f32::from(from[2]), f32::from(from[3])]
+    }
+    #[inline(always)]
     fn store_u(self, v: Self::U, to: &mut [u32]) {
         to[..N].copy_from_slice(&v);
     }

@@ -97,6 +97,14 @@ impl Simd for Scalar {
         a < b
     }
     #[inline(always)]
+    fn load_u(self, from: &[u32]) -> u32 {
+        from[0]
+    }
+    #[inline(always)]
+    fn load_short(self, from: &[u16]) -> f32 {
+        f32::from(from[0])
+    }
+    #[inline(always)]
     fn store_u(self, v: u32, to: &mut [u32]) {
         to[0] = v;
     }

@@ -40,7 +40,14 @@ impl Task for Everything {
                 // NaNs may differ in sign and payload between instruction sets.
                 out.extend(lanes[..S::LANES].iter().map(|l| if l.is_nan() { u32::MAX } else { l.to_bits() }));
             }
+            let short: [u16; ROW] = std::array::from_fn(|i| (i * 4099) as u16);
+            let wide: [u32; ROW] = std::array::from_fn(|i| 0xf000_0000 + i as u32);
+            let mut floats = [0.0; ROW];
+            s.store(s.load_short(&short[at..]), &mut floats);
+            out.extend(floats[..S::LANES].iter().map(|l| l.to_bits()));
             let mut ids = [0; ROW];
+            s.store_u(s.load_u(&wide[at..]), &mut ids);
+            out.extend(&ids[..S::LANES]);
             s.store_u(s.select_u(lt, s.splat_u(1), s.splat_u(0)), &mut ids);
             out.extend(&ids[..S::LANES].iter().map(|id| id + 10).collect::<Vec<_>>());
         }

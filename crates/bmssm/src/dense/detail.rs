@@ -18,6 +18,12 @@ pub trait Detail: Send + Sync {
     /// Whether any of them is hit at t in the ray's range.
     fn any<S: Simd>(&self, s: S, index: usize, word: u64, ray: &Self::Ray, t_max: f32) -> bool;
 
+    /// Decides what tests left open.
+    #[inline(always)]
+    fn settle(&self, ray: &Self::Ray, best: &mut Nearest) {
+        let _ = (ray, best);
+    }
+
     /// Bytes of copied geometry.
     fn bytes(&self) -> usize;
 }
@@ -88,6 +94,11 @@ impl<B: Blocks> Detail for Words<B> {
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, index: usize, word: u64, ray: &B::One, best: &mut Nearest) {
         self.0.closest(s, index, word, ray, best);
+    }
+
+    #[inline(always)]
+    fn settle(&self, ray: &B::One, best: &mut Nearest) {
+        self.0.settle(ray, best);
     }
 
     #[inline(always)]

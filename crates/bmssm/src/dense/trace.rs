@@ -111,6 +111,7 @@ impl<D: Detail> Built<D> {
                 break;
             }
         }
+        self.detail.settle(&state.ray, &mut state.best);
         A::new(&state.best, state.count)
     }
 
@@ -148,6 +149,7 @@ impl<D: Detail> Built<D> {
                 }
             }
         }
+        self.detail.settle(&state.ray, &mut state.best);
         A::new(&state.best, state.count)
     }
 

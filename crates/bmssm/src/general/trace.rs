@@ -150,6 +150,7 @@ impl<O: Objects> General<O> {
             }
             next = stack.pop(limit);
         }
+        self.objects.settle(&prepared, &mut best);
         best
     }
 }

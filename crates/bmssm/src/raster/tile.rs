@@ -94,6 +94,7 @@ impl<O: Objects, C: Count> Task for Band<'_, O, C> {
             tile.open.fill(false);
             tile.closed = tile.rows.len() * tile.cols.len();
             tile.trace(s, maps, (self.row, col), &mut self.count);
+            tile.settle(s, maps);
             tile.end(s, maps, self.hits);
         }
         self.count
@@ -266,6 +267,21 @@ impl<S: Simd, M: Copy> Tile<S, M> {
         let mut lanes = [f32::NEG_INFINITY; ROW];
         s.store(far, &mut lanes);
         lanes.into_iter().fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    /// Decides the hits that tests left open.
+    #[inline(always)]
+    fn settle<O: Objects>(&mut self, s: S, maps: &RasterMaps<O>)
+    where
+        O::Blocks: Blocks<Many<S> = M>,
+    {
+        for cell in 0..self.rows.len() * self.cols.len() {
+            if self.open[cell] {
+                for packet in cell * Self::PACKETS..(cell + 1) * Self::PACKETS {
+                    maps.geometry.settle_packet(s, &self.rays[packet], &mut self.best[packet]);
+                }
+            }
+        }
     }
 
     /// Writes the hits to a row of tiles.

@@ -3,7 +3,8 @@
 //! Three stages, each leaving to the next what it can't tell for certain:
 //!
 //! 1. [`reject`]: Möller and Trumbore's products in `f32` with an error bound, in lanes. Nearly all
-//!    triangles tested are missed, and nearly all misses end here.
+//!    triangles tested are missed, and nearly all misses end here. Hits that are certain, with bounds of t that tell which
+//!    is the nearest, wait until the ray is done ([`Kernel::POSTPONES`]).
 //! 2. [`decide`]: the same products in `f64` with an error bound. It settles hits, and rounds t correctly where
 //!    its bound leaves one `f32` only.
 //! 3. [`signs`]: rays through an edge or a corner, by signs without error.
@@ -22,10 +23,10 @@ mod signs;
 #[cfg(test)]
 mod tests;
 
-use super::wide::{OneRay, OneTriangle, RayRows};
+use super::wide::{OneEach, OneRay, OneTriangle, RayRows};
 use super::{Corners, Kernel, KernelId, load_corners, pack_corners, splat_corners};
 use crate::Ray;
-use crate::packet::{Common, Lanes, Packet};
+use crate::packet::{Bounds, Common, Lanes, Packet};
 use crate::simd::{Row, Scalar, Simd};
 use signs::{Place, meet_at_corner, place, same_point};
 use std::cmp::Ordering;
@@ -50,7 +51,6 @@ pub struct Spanned {
 pub struct SpannedLanes<S: Simd> {
     rays: Packet<S>,
     span: reject::Span<S>,
-    rows: RayRows,
 }
 
 impl Kernel for Exact {
@@ -70,12 +70,12 @@ impl Kernel for Exact {
 
     #[inline(always)]
     fn one(ray: &Ray) -> Spanned {
-        Spanned { ray: *ray, span: reject::Span::of(Scalar, ray.direction.to_array()) }
+        Spanned { ray: *ray, span: reject::Span::of(Scalar, ray.origin.to_array(), ray.direction.to_array()) }
     }
 
     #[inline(always)]
     fn many<S: Simd>(s: S, rays: &Packet<S>) -> SpannedLanes<S> {
-        SpannedLanes { rays: *rays, span: reject::Span::of(s, rays.direction), rows: RayRows::of(s, rays) }
+        SpannedLanes { rays: *rays, span: reject::Span::of(s, rays.origin, rays.direction) }
     }
 
     #[inline(always)]
@@ -87,22 +87,70 @@ impl Kernel for Exact {
         wanted: u32,
         t_max: f32,
     ) -> Lanes<S> {
+        let bounds = Self::triangles_bounds(s, ray, group, at, t_max);
+        Self::triangles_decided(s, ray, group, at, wanted & s.bits(bounds.open), t_max)
+    }
+
+    #[inline(always)]
+    fn triangles_bounds<S: Simd>(s: S, ray: &Spanned, group: &[Row], at: usize, t_max: f32) -> Bounds<S> {
         let rays = Packet::splat(s, &ray.ray);
         let length = s.load(&group[LENGTH_ROW].0[at..]);
-        let corners = load_corners(s, group, at);
-        let open = wanted & reject::open(s, &rays, &ray.span.splat(s), corners, length, s.splat(t_max));
+        reject::bounds(s, &rays, &ray.span.splat(s), load_corners(s, group, at), length, s.splat(t_max))
+    }
+
+    #[inline(always)]
+    fn triangles_decided<S: Simd>(
+        s: S,
+        ray: &Spanned,
+        group: &[Row],
+        at: usize,
+        open: u32,
+        t_max: f32,
+    ) -> Lanes<S> {
         if open == 0 {
             return nothing(s);
         }
         let pairs = OneRay::new(&ray.ray, group, at, S::LANES);
-        in_range(s, decide::decide(s, &pairs, open), &rays, s.splat(t_max))
+        in_range(s, decide::decide(s, &pairs, open), &Packet::splat(s, &ray.ray), s.splat(t_max))
     }
 
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
+        let open = s.bits(Self::bounds(s, rays, group, lane, t_max).open);
+        Self::decide(s, rays, group, lane, open, t_max)
+    }
+
+    const POSTPONES: bool = true;
+
+    #[inline(always)]
+    fn bounds<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Bounds<S> {
         let length = s.splat(group[LENGTH_ROW].0[lane]);
-        let open = reject::open(s, &rays.rays, &rays.span, splat_corners(s, group, lane), length, t_max);
-        one_triangle(s, rays, group, lane, open, t_max)
+        reject::bounds(s, &rays.rays, &rays.span, splat_corners(s, group, lane), length, t_max)
+    }
+
+    #[inline(always)]
+    fn decide<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        group: &[Row],
+        lane: usize,
+        open: u32,
+        t_max: S::F,
+    ) -> Lanes<S> {
+        if open == 0 {
+            return nothing(s);
+        }
+        // Else the compiler loads the corners once for here and for the rejection, and by a gather.
+        let group = std::hint::black_box(group);
+        let rows = RayRows::of(s, &rays.rays);
+        let pairs = OneTriangle::new(&rows, group, lane);
+        in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
+    }
+
+    #[inline(always)]
+    fn settle<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], open: u32) -> Lanes<S> {
+        let rows = RayRows::of(s, rays);
+        in_range(s, decide::decide(s, &OneEach::new(&rows, group), open), rays, rays.t_max)
     }
 
     const PREPARED_ROWS: usize = reject::PREPARED_ROWS;
@@ -113,7 +161,7 @@ impl Kernel for Exact {
     }
 
     #[inline(always)]
-    fn rays_prepared<S: Simd>(
+    fn bounds_prepared<S: Simd>(
         s: S,
         rays: &SpannedLanes<S>,
         common: &Common,
@@ -121,10 +169,9 @@ impl Kernel for Exact {
         rows: &[Row],
         lane: usize,
         t_max: S::F,
-    ) -> Lanes<S> {
+    ) -> Bounds<S> {
         let prepared = reject::Prepared { common, group, rows, lane };
-        let open = reject::open_prepared(s, &rays.rays, &rays.span, prepared, t_max);
-        one_triangle(s, rays, group, lane, open, t_max)
+        reject::bounds_prepared(s, &rays.rays, &rays.span, prepared, t_max)
     }
 
     fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
@@ -143,24 +190,6 @@ impl Kernel for Exact {
         let t = |corners| crate::exact::intersect(&line, corners).map(|hit| hit.t);
         t(a).cmp(&t(b))
     }
-}
-
-/// Decides the rays `open` against the triangle in a lane.
-#[inline(always)]
-fn one_triangle<S: Simd>(
-    s: S,
-    rays: &SpannedLanes<S>,
-    group: &[Row],
-    lane: usize,
-    open: u32,
-    t_max: S::F,
-) -> Lanes<S> {
-    if open == 0 {
-        return nothing(s);
-    }
-    // Else the compiler loads the corners once for here and for the rejection, and by a gather.
-    let pairs = OneTriangle::new(&rays.rows, std::hint::black_box(group), lane);
-    in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
 }
 
 #[inline(always)]

@@ -1,4 +1,4 @@
-//! Certain misses in `f32`, in lanes.
+//! What `f32` can tell for certain, in lanes: misses, hits, and bounds of t.
 //!
 //! **The bound.** Let ε = 2^-24, D the largest component of the direction (its span), L of the edges from the
 //! first corner, and S the sum of the components of the origin relative to that corner, all absolute. Differences of coordinates and
@@ -10,21 +10,40 @@
 //! - w = det − u − v adds their errors and two roundings: 34ε·DLS + 54ε·DL².
 //! - Scaled t is a sum of at most 2L²S with 8 factors each: off by 16ε·L²S.
 //!
-//! All are below 64ε·DL(S + L) and 64ε·L²(S + L), the margin covering second-order terms, the rounding of the
-//! bounds themselves and that of the comparisons of t. With 2^-30 ≤ D ≤ 2^30 and S + L < 2^45 nothing overflows, and underflows
-//! add less than [`TINY`] to each. Beyond those sizes nothing is rejected here.
+//! With U = 18ε·L(S + 1.5L), u and v are off by less than DU, w and the determinant by less than 2.5DU, scaled t by
+//! less than LU, the margin of an eighth covering second-order terms, the rounding of the bounds themselves and that of the
+//! comparisons. With 2^-30 ≤ D ≤ 2^30 and coordinates up to 2^41 nothing overflows, and underflows
+//! add less than [`TINY`] to each. Beyond those sizes D or L counts as infinite, and nothing is certain.
+//!
+//! **t itself.** Let T and d be scaled t and the determinant as computed, T + τ and d + δ the true ones, and q the quotient
+//! T/d as computed, off by 3ε|q| or by the least normal float. The true t is off T/d by (τ − δT/d)/(d + δ), at most
+//! (|τ| + |T/d|·|δ|)/|d| · 16/15 where |δ| < |d|/16. The bounds of t add that, with a margin for its own rounding and that of q.
 
+use super::LENGTH_ROW;
 use crate::kernel::{Corners, cross3, dot3, splat_row3, store_rows, sub3};
-use crate::packet::{Common, Packet, Vec3Lanes, splat3};
+use crate::packet::{Bounds, Common, Packet, Vec3Lanes, splat3};
 use crate::simd::{Row, Scalar, Simd};
 
-const BOUND: f32 = 64.0 * f32::EPSILON / 2.0;
+/// 18ε
+const BOUND: f32 = 18.0 * f32::EPSILON / 2.0;
+
+/// How much less certain than u and v the determinant and w are; a power of two would be too much.
+const OF_DET: f32 = 2.5;
 
 /// 2^-100
 const TINY: f32 = 7.888_609e-31;
 
-/// 2^45
-const GREAT: f32 = 35_184_372_088_832.0;
+/// The bounds of t are for determinants of more than so many errors.
+const FIRM: f32 = 16.0;
+
+/// Above 16/15, and what rounding the bounds of t themselves adds.
+const MARGIN: f32 = 1.125;
+
+/// 16ε
+const ROUNDING: f32 = 16.0 * f32::EPSILON / 2.0;
+
+/// 2^41
+const GREAT: f32 = 2_199_023_255_552.0;
 
 /// 2^-30 and 2^30
 const SPANS: [f32; 2] = [9.313_226e-10, 1_073_741_824.0];
@@ -32,18 +51,17 @@ const SPANS: [f32; 2] = [9.313_226e-10, 1_073_741_824.0];
 /// The size of a direction.
 #[derive(Clone, Copy)]
 pub struct Span<S: Simd> {
-    /// Its largest component.
+    /// The largest component of the direction: D, or infinity where the bound is not for such rays.
     largest: S::F,
-    /// 0, or infinity where the bound is not for such a size.
-    beyond: S::F,
 }
 
 impl<S: Simd> Span<S> {
     #[inline(always)]
-    pub(super) fn of(s: S, direction: Vec3Lanes<S>) -> Self {
+    pub(super) fn of(s: S, origin: Vec3Lanes<S>, direction: Vec3Lanes<S>) -> Self {
         let largest = largest3(s, direction);
         let fits = s.and(s.le(s.splat(SPANS[0]), largest), s.le(largest, s.splat(SPANS[1])));
-        Self { largest, beyond: s.select(fits, s.splat(0.0), s.splat(f32::INFINITY)) }
+        let fits = s.and(fits, s.le(largest3(s, origin), s.splat(GREAT)));
+        Self { largest: s.select(fits, largest, s.splat(f32::INFINITY)) }
     }
 }
 
@@ -51,7 +69,7 @@ impl Span<Scalar> {
     /// The same in all lanes.
     #[inline(always)]
     pub(super) fn splat<S: Simd>(&self, s: S) -> Span<S> {
-        Span { largest: s.splat(self.largest), beyond: s.splat(self.beyond) }
+        Span { largest: s.splat(self.largest) }
     }
 }
 
@@ -76,23 +94,27 @@ struct Parts<S: Simd> {
     distance: S::F,
 }
 
-/// The largest component of the edges from the first corner: L.
+/// The largest component of the edges from the first corner: L, or infinity where the bound is not for such corners.
 #[inline(always)]
 pub(super) fn length_of([a, b, c]: &Corners) -> f32 {
+    let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
+    if largest > GREAT {
+        return f32::INFINITY;
+    }
     let (edge1, edge2) = (*b - *a, *c - *a);
-    length(Scalar, edge1.to_array(), edge2.to_array())
+    edge1.abs().max(edge2.abs()).max_element()
 }
 
-/// The lanes that may be hit at t up to `t_max`, as bits. NaN, as in empty lanes, is not. `length` is that of [`length_of`].
+/// What `f32` can tell of hits at t up to `t_max`. `length` is that of [`length_of`].
 #[inline(always)]
-pub(super) fn open<S: Simd>(
+pub(super) fn bounds<S: Simd>(
     s: S,
     ray: &Packet<S>,
     span: &Span<S>,
     [a, b, c]: [Vec3Lanes<S>; 3],
     length: S::F,
     t_max: S::F,
-) -> u32 {
+) -> Bounds<S> {
     let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
     let from_a = sub3(s, ray.origin, a);
     let p = cross3(s, ray.direction, edge2);
@@ -105,14 +127,14 @@ pub(super) fn open<S: Simd>(
         length,
         distance: distance(s, from_a),
     };
-    undecided(s, ray, span, &parts, t_max)
+    known(s, ray, span, &parts, t_max)
 }
 
 /// Rows that [`prepare`] writes.
-pub(super) const PREPARED_ROWS: usize = 15;
+pub(super) const PREPARED_ROWS: usize = 13;
 
-/// Writes the parts that are the same for all rays with this in common: in rows 0–5 the edges, in
-/// row 13 their length, and from row 6 on p and the determinant or the relative origin, q and the distance.
+/// Writes the parts that are the same for all rays with this in common: in rows 0–5 the edges, and from row 6 on p and the
+/// determinant or the relative origin, q and the distance.
 #[inline(always)]
 pub(super) fn prepare<S: Simd>(
     s: S,
@@ -125,7 +147,6 @@ pub(super) fn prepare<S: Simd>(
     let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
     store_rows(s, edge1, &mut rows[0..3], at);
     store_rows(s, edge2, &mut rows[3..6], at);
-    s.store(length(s, edge1, edge2), &mut rows[13].0[at..]);
     match common {
         Common::Direction(direction) => {
             let p = cross3(s, splat3(s, *direction), edge2);
@@ -136,7 +157,7 @@ pub(super) fn prepare<S: Simd>(
             let from_a = sub3(s, splat3(s, *origin), a);
             store_rows(s, from_a, &mut rows[6..9], at);
             store_rows(s, cross3(s, from_a, edge1), &mut rows[9..12], at);
-            s.store(distance(s, from_a), &mut rows[14].0[at..]);
+            s.store(distance(s, from_a), &mut rows[12].0[at..]);
         }
     }
 }
@@ -150,20 +171,20 @@ pub(super) struct Prepared<'a> {
     pub lane: usize,
 }
 
-/// [`open`] for a triangle prepared.
+/// [`bounds`] for a triangle prepared.
 #[inline(always)]
-pub(super) fn open_prepared<S: Simd>(
+pub(super) fn bounds_prepared<S: Simd>(
     s: S,
     ray: &Packet<S>,
     span: &Span<S>,
     triangle: Prepared<'_>,
     t_max: S::F,
-) -> u32 {
+) -> Bounds<S> {
     let Prepared { common, group, rows, lane } = triangle;
     let rows = &rows[..PREPARED_ROWS];
     let edge1 = splat_row3(s, &rows[0..3], lane);
     let edge2 = splat_row3(s, &rows[3..6], lane);
-    let length = s.splat(rows[13].0[lane]);
+    let length = s.splat(group[LENGTH_ROW].0[lane]);
     let parts = match common {
         Common::Direction(_) => {
             let from_a = sub3(s, ray.origin, splat_row3(s, &group[0..3], lane));
@@ -186,16 +207,11 @@ pub(super) fn open_prepared<S: Simd>(
                 q: splat_row3(s, &rows[9..12], lane),
                 det: dot3(s, edge1, p),
                 length,
-                distance: s.splat(rows[14].0[lane]),
+                distance: s.splat(rows[12].0[lane]),
             }
         }
     };
-    undecided(s, ray, span, &parts, t_max)
-}
-
-#[inline(always)]
-fn length<S: Simd>(s: S, edge1: Vec3Lanes<S>, edge2: Vec3Lanes<S>) -> S::F {
-    s.max(largest3(s, edge1), largest3(s, edge2))
+    known(s, ray, span, &parts, t_max)
 }
 
 #[inline(always)]
@@ -204,42 +220,42 @@ fn distance<S: Simd>(s: S, from_a: Vec3Lanes<S>) -> S::F {
 }
 
 #[inline(always)]
-fn undecided<S: Simd>(s: S, ray: &Packet<S>, span: &Span<S>, parts: &Parts<S>, t_max: S::F) -> u32 {
+fn known<S: Simd>(s: S, ray: &Packet<S>, span: &Span<S>, parts: &Parts<S>, t_max: S::F) -> Bounds<S> {
     let Parts { edge2, from_a, p, q, det, length, distance } = *parts;
     let u = dot3(s, from_a, p);
     let v = dot3(s, ray.direction, q);
     let w = s.sub(s.sub(det, u), v);
-    let size = s.add(distance, length);
-    let area = s.mul(s.mul(length, s.splat(BOUND)), size);
-    let error = s.add(s.mul(area, span.largest), s.splat(TINY));
+    let size = s.add(distance, s.mul(length, s.splat(1.5)));
+    let unit = s.mul(s.mul(length, s.splat(BOUND)), size);
+    let error = s.add(s.mul(unit, span.largest), s.splat(TINY));
 
     let zero = s.splat(0.0);
+    let minus_error = s.sub(zero, error);
+    let w = s.mul(w, s.splat(1.0 / OF_DET));
     let least = s.min(s.min(u, v), w);
     let greatest = s.max(s.max(u, v), w);
-    // Of one sign, or not certainly of different ones.
-    let inside = s.or(s.le(s.sub(zero, error), least), s.le(greatest, error));
-    let unbounded = s.le(s.splat(GREAT), s.add(size, span.beyond));
-    let open = s.bits(s.or(inside, unbounded));
-    if open == 0 {
-        return 0;
+    // Certainly of different signs. What is beyond the bound is infinite or NaN and stays open.
+    let missed = s.and(s.lt(least, minus_error), s.lt(error, greatest));
+    let open = s.mask(!s.bits(missed));
+    if s.bits(open) == 0 {
+        return Bounds { open, sure: open, low: zero, high: zero };
     }
 
-    // Few tests come here.
-    let scaled_t = dot3(s, edge2, q);
-    let t_error = s.add(s.mul(area, length), s.splat(TINY));
-    let size_of_det = s.abs(det);
-    let minus_t = s.sub(zero, scaled_t);
-    let negative = s.lt(det, zero);
-    let signed_t = s.select(negative, minus_t, scaled_t);
-    let past = s.lt(times(s, t_max, size_of_det, error), s.sub(signed_t, t_error));
-    let minus_t = s.select(negative, scaled_t, minus_t);
-    let before = s.lt(times(s, s.sub(zero, ray.t_min), size_of_det, error), s.sub(minus_t, t_error));
-    let out_of_range = s.and(s.or(past, before), s.lt(error, size_of_det));
-    open & (!s.bits(out_of_range) | s.bits(unbounded))
-}
-
-/// The most that limit·det can be.
-#[inline(always)]
-fn times<S: Simd>(s: S, limit: S::F, size_of_det: S::F, error: S::F) -> S::F {
-    s.add(s.mul(limit, size_of_det), s.mul(s.abs(limit), error))
+    let infinity = s.splat(f32::INFINITY);
+    let det_error = s.mul(error, s.splat(OF_DET));
+    let reciprocal = s.div(s.splat(1.0), det);
+    let t = s.mul(dot3(s, edge2, q), reciprocal);
+    let t_error = s.add(s.mul(unit, length), s.splat(TINY));
+    let size_of_t = s.abs(t);
+    let off = s.mul(s.add(t_error, s.mul(size_of_t, det_error)), s.abs(reciprocal));
+    let rounding = s.add(s.mul(size_of_t, s.splat(ROUNDING)), s.splat(f32::MIN_POSITIVE));
+    let off = s.add(s.mul(off, s.splat(MARGIN)), rounding);
+    let firm = s.lt(s.mul(det_error, s.splat(FIRM)), s.abs(det));
+    let low = s.select(firm, s.sub(t, off), s.sub(zero, infinity));
+    let high = s.select(firm, s.add(t, off), infinity);
+    let gone = s.or(s.lt(t_max, low), s.lt(high, ray.t_min));
+    let open = s.mask(s.bits(open) & !s.bits(gone));
+    let sure = s.or(s.lt(error, least), s.lt(greatest, minus_error));
+    let sure = s.and(s.and(sure, open), s.lt(s.max(ray.t_min, s.splat(f32::MIN_POSITIVE)), low));
+    Bounds { open, sure, low, high }
 }
