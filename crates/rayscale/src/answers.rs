@@ -2,6 +2,7 @@
 
 use crate::record::Query;
 use accel::{Accel, Hit, RaySet};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// One answer for each ray of a set.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,6 +86,19 @@ impl Answers {
         (0..shared).find(|i| !self.same(*i, other, *i)).or(end)
     }
 
+    /// A number that other answers hardly ever share: a hash of every bit of them.
+    pub fn fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        match self {
+            Self::Closest(hits) => {
+                let bits = |hit: &Hit| (hit.t.to_bits(), hit.object, hit.u.to_bits(), hit.v.to_bits());
+                hits.iter().for_each(|hit| hit.as_ref().map(bits).hash(&mut hasher));
+            }
+            Self::Occluded(any) => any.hash(&mut hasher),
+        }
+        hasher.finish()
+    }
+
     /// The nearest hits, if that was the query.
     pub fn closest(&self) -> Option<&[Option<Hit>]> {
         match self {
@@ -106,6 +120,7 @@ mod tests {
     fn equality_is_of_bits() {
         let a = Answers::Closest(vec![hit(0.0, 1), None, hit(2.0, 3)]);
         assert_eq!(a.first_difference(&a.clone()), None);
+        assert_eq!(a.fingerprint(), a.clone().fingerprint());
         for (i, other) in [
             (0, vec![hit(-0.0, 1), None, hit(2.0, 3)]),
             (1, vec![hit(0.0, 1), hit(1.0, 1), hit(2.0, 3)]),
@@ -113,7 +128,9 @@ mod tests {
             (2, vec![hit(0.0, 1), None, None]),
             (2, vec![hit(0.0, 1), None]),
         ] {
-            assert_eq!(a.first_difference(&Answers::Closest(other)), Some(i));
+            let other = Answers::Closest(other);
+            assert_eq!(a.first_difference(&other), Some(i));
+            assert_ne!(a.fingerprint(), other.fingerprint());
         }
     }
 

@@ -1,14 +1,29 @@
 //! What changed from one record to another, and what is only noise.
 //!
-//! Samples of one run agree better with each other than with those of another run: memory is laid out anew, the machine
-//! is warmer or busier. An interval from the samples of a cell alone would find changes where there are none. So the
-//! ratio of a cell is taken relative to the middle of the ratios of the *other* structures' cells between the same two
-//! records (the drift), and its interval is widened by how far those spread.
+//! A disturbance (other work on the same core, a change of clock) only ever makes a sample longer, it lasts longer than a
+//! sample, and it slows some structures more than others. So a cell's figure is its least sample, the samples come
+//! from several passes over the scene, and what counts is whether any pass was left in peace: a bootstrap over raw samples that
+//! draws whole passes tells how well the figure is known. What two runs differ by besides (memory is laid out anew, the
+//! machine is warmer or busy all the time) no record can know of itself. The *other* structures' cells in the same two
+//! records do: by the middle of their ratios (the drift) and how far they spread about it, all of them and those on the same
+//! rays, whose samples were taken at the same time.
+//!
+//! A structure is judged as a whole too, by the middle of its cells' ratios, against those of the other structures:
+//! noise of single cells averages out, so that a smaller change is beyond it.
 
-use crate::record::{Cell, Record};
-use crate::stats::{Interval, median, ratio_interval};
+use crate::record::{Cell, Key, Record};
+use crate::stats::{least_below, median};
 use serde::Serialize;
 use std::collections::BTreeMap;
+
+/// Everything that two records share.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Changes {
+    /// Structures as a whole.
+    pub structures: Vec<Shift>,
+    /// Every cell.
+    pub cells: Vec<Change>,
+}
 
 /// A cell's change from one record to another.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,104 +36,178 @@ pub struct Change {
     pub structure: String,
     /// Threads.
     pub threads: usize,
-    /// Median of the second over median of the first.
+    /// The change.
+    #[serde(flatten)]
+    pub judged: Judged,
+}
+
+/// A structure's change over all its cells.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shift {
+    /// Structure.
+    pub structure: String,
+    /// Cells that both records have of it.
+    pub cells: usize,
+    /// The change: that of the middle cell.
+    #[serde(flatten)]
+    pub judged: Judged,
+}
+
+/// A ratio and whether it means anything.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Judged {
+    /// The second's least time per ray over the first's.
     pub ratio: f64,
-    /// Middle of the ratios of the other structures' cells; 1 if there are too few to tell.
+    /// Middle of the ratios of the other structures; 1 if there are too few to tell.
     pub drift: f64,
-    /// Interval of the ratio over the drift: bootstrap over the raw samples at 99 %, widened as the module says.
+    /// Range of the ratio over the drift that noise alone explains, about what was seen.
     pub low: f64,
     /// As above.
     pub high: f64,
-    /// Whether the interval leaves out 1.
+    /// Whether the range leaves out 1.
     pub beyond_noise: bool,
 }
 
-/// Confidence of the bootstrap.
-const CONFIDENCE: f64 = 0.99;
-/// Draws of the bootstrap.
-const DRAWS: usize = 1000;
-/// The interval is widened by so many spreads of the other cells: among the hundreds of cells of a record hardly any
-/// is that far out by chance.
-const SPREADS: f64 = 4.0;
-/// The spread of log ratios that is expected before any cell is seen, and how many cells that counts for.
+/// Widths of ranges in spreads: among the hundreds of cells of a record hardly any is that far out by chance, and
+/// single cells have heavier tails than structures.
+const CELL_SPREADS: f64 = 5.0;
+const STRUCTURE_SPREADS: f64 = 4.0;
+/// The spread of log ratios that is expected before any is seen, and how many that counts for.
 const EXPECTED: (f64, f64) = (0.02, 4.0);
+/// With fewer than this of other structures, or of their cells, there is no telling a drift.
+const ENOUGH_STRUCTURES: usize = 3;
+const ENOUGH_CELLS: usize = 8;
+/// Of normal noise this share lies below one standard deviation.
+const ONE_DEVIATION: f64 = 0.84;
+/// Draws of the bootstrap.
+const DRAWS: usize = 500;
+/// Makes the median deviation of normal noise its standard deviation.
+const NORMAL: f64 = 1.4826;
+/// Standard error of the median of normal noise, over that of the mean.
+const MEDIAN_ERROR: f64 = 1.25;
 
-/// With fewer cells of other structures than this there is no telling a drift.
-const ENOUGH: usize = 8;
-
-/// Changes of time per ray from record `a` to `b`, over the cells that both have.
-pub fn changes(a: &Record, b: &Record) -> Vec<Change> {
-    let name = |cell: &Cell| (cell.key(), cell.structure.clone(), cell.kernel.clone(), cell.query);
-    let first: BTreeMap<_, &Cell> = a.cells.iter().map(|cell| (name(cell), cell)).collect();
-    let pairs: Vec<(&Cell, &Cell, f64)> = b
-        .cells
-        .iter()
-        .filter_map(|after| {
-            let before = *first.get(&name(after))?;
-            Some((before, after, (after.ns()? / before.ns()?).ln()))
-        })
-        .collect();
-    let mut between: BTreeMap<&str, Between> = BTreeMap::new();
-    for (_, cell, _) in &pairs {
-        between.entry(&cell.structure).or_insert_with(|| {
-            let others = pairs.iter().filter(|(_, other, _)| other.structure != cell.structure);
-            Between::of(&others.map(|(_, _, log)| *log).collect::<Vec<_>>())
-        });
-    }
-    pairs
-        .iter()
-        .map(|(before, after, log)| change(before, after, *log, between[after.structure.as_str()]))
-        .collect()
+/// A cell that both records have.
+struct Pair<'a> {
+    cell: &'a Cell,
+    /// Logarithm of the ratio of least samples.
+    log: f64,
+    /// How well the passes of both runs agree on it.
+    own: f64,
 }
 
-/// How the ratios of other cells lie between two records, as logarithms.
+/// Changes of time per ray from record `a` to `b`, over the cells that both have.
+pub fn changes(a: &Record, b: &Record) -> Changes {
+    let name = |cell: &Cell| (cell.key(), cell.structure.clone(), cell.kernel.clone(), cell.query);
+    let first: BTreeMap<_, &Cell> = a.cells.iter().map(|cell| (name(cell), cell)).collect();
+    let pairs: Vec<Pair> =
+        b.cells.iter().filter_map(|cell| Pair::of(first.get(&name(cell)).copied()?, cell)).collect();
+    let mut logs: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for pair in &pairs {
+        logs.entry(&pair.cell.structure).or_default().push(pair.log);
+    }
+    let middles: BTreeMap<&str, f64> =
+        logs.iter().map(|(id, logs)| (*id, median(logs).unwrap_or(0.0))).collect();
+    let others =
+        |id: &str| Between::of(logs.iter().filter(|(o, _)| **o != id).flat_map(|(_, l)| l), ENOUGH_CELLS);
+    let others: BTreeMap<&str, Between> = logs.keys().map(|id| (*id, others(id))).collect();
+    let structures = logs.iter().map(|(id, logs)| {
+        let among = Between::of(middles.iter().filter(|(o, _)| *o != id).map(|(_, m)| m), ENOUGH_STRUCTURES);
+        let error = MEDIAN_ERROR * others[id].with(logs, middles[id]) / (logs.len() as f64).sqrt();
+        let judged = among.judge(middles[id], error, STRUCTURE_SPREADS);
+        Shift { structure: (*id).to_owned(), cells: logs.len(), judged }
+    });
+    let mut sets: BTreeMap<Key, Vec<&Pair>> = BTreeMap::new();
+    for pair in &pairs {
+        sets.entry(pair.cell.key()).or_default().push(pair);
+    }
+    let cells = pairs.iter().map(|pair| {
+        let others = others[pair.cell.structure.as_str()];
+        let beside = sets[&pair.cell.key()].iter().filter(|p| p.cell.structure != pair.cell.structure);
+        let beside: Vec<f64> = beside.map(|p| p.log).collect();
+        let at_once = if beside.len() < ENOUGH_STRUCTURES { 0.0 } else { deviation(&beside, others.drift) };
+        Change {
+            scene: pair.cell.scene.clone(),
+            rays: pair.cell.rays.clone(),
+            structure: pair.cell.structure.clone(),
+            threads: pair.cell.threads,
+            judged: others.judge(pair.log, pair.own.hypot(at_once), CELL_SPREADS),
+        }
+    });
+    Changes { structures: structures.collect(), cells: cells.collect() }
+}
+
+impl<'a> Pair<'a> {
+    fn of(before: &Cell, cell: &'a Cell) -> Option<Self> {
+        let ((a, own_a), (b, own_b)) = (floor(before)?, floor(cell)?);
+        Some(Self { cell, log: b - a, own: own_a.hypot(own_b) })
+    }
+}
+
+/// Logarithm of the least time per ray of a cell that did not fail, and how far it is known: by a cluster bootstrap over its
+/// passes, how much higher it might as well have come out.
+fn floor(cell: &Cell) -> Option<(f64, f64)> {
+    cell.ns()?;
+    let passes = cell.passes_per_ray();
+    let least = passes.iter().flatten().copied().reduce(f64::min)?;
+    let upper = least_below(&passes, ONE_DEVIATION, DRAWS, 1)?;
+    (least > 0.0 && upper.is_finite()).then(|| (least.ln(), (upper / least).ln()))
+}
+
+/// How the ratios of others lie between two records, as logarithms.
 #[derive(Clone, Copy)]
 struct Between {
     drift: f64,
+    /// Spread as seen, and over how many.
+    seen: (f64, f64),
+    /// Spread as seen and expected.
     spread: f64,
 }
 
-impl Change {
-    /// The ratio over the drift: what the interval is about.
+impl Between {
+    fn of<'a>(logs: impl Iterator<Item = &'a f64>, enough: usize) -> Self {
+        let logs: Vec<f64> = logs.copied().collect();
+        let middle = median(&logs).unwrap_or(0.0);
+        let seen = deviation(&logs, middle);
+        let ((expected, weight), n) = (EXPECTED, logs.len() as f64);
+        let variance = (weight * expected * expected + n * seen * seen) / (weight + n);
+        let drift = if logs.len() < enough { 0.0 } else { middle };
+        Self { drift, seen: (seen, n), spread: variance.sqrt() }
+    }
+
+    /// The spread as seen, with more figures about a middle of their own. A few have little weight: two cells that happen to
+    /// lie apart do not make a structure's figure unknown.
+    fn with(self, logs: &[f64], middle: f64) -> f64 {
+        let ((seen, n), more) = (self.seen, logs.len() as f64 - 1.0);
+        if n + more <= 0.0 {
+            return 0.0;
+        }
+        ((n * seen * seen + more * deviation(logs, middle).powi(2)) / (n + more)).sqrt()
+    }
+
+    /// Judges a log ratio whose own error is known.
+    fn judge(self, log: f64, error: f64, spreads: f64) -> Judged {
+        let (relative, width) = (log - self.drift, spreads * self.spread.hypot(error));
+        Judged {
+            ratio: log.exp(),
+            drift: self.drift.exp(),
+            low: (relative - width).exp(),
+            high: (relative + width).exp(),
+            beyond_noise: relative.abs() > width,
+        }
+    }
+}
+
+impl Judged {
+    /// The ratio over the drift: what the range is about.
     pub fn relative(&self) -> f64 {
         self.ratio / self.drift
     }
 }
 
-impl Between {
-    fn of(logs: &[f64]) -> Self {
-        let drift = median(logs).unwrap_or(0.0);
-        let deviations: Vec<f64> = logs.iter().map(|log| (log - drift).abs()).collect();
-        // The factor makes the median deviation of normal noise its standard deviation.
-        let seen = 1.4826 * median(&deviations).unwrap_or(0.0);
-        let (expected, weight) = EXPECTED;
-        let n = logs.len() as f64;
-        let variance = (weight * expected * expected + n * seen * seen) / (weight + n);
-        let drift = if logs.len() < ENOUGH { 0.0 } else { drift };
-        Self { drift, spread: variance.sqrt() }
-    }
-}
-
-fn change(a: &Cell, b: &Cell, log: f64, between: Between) -> Change {
-    let interval = ratio_interval(&b.samples_per_ray(), &a.samples_per_ray(), CONFIDENCE, DRAWS, 1);
-    let interval = interval.unwrap_or(Interval { low: 0.0, high: f64::INFINITY });
-    let widen = |end: f64| (end.ln() - log).hypot(SPREADS * between.spread);
-    let relative = log - between.drift;
-    let interval = Interval {
-        low: (relative - widen(interval.low)).exp(),
-        high: (relative + widen(interval.high)).exp(),
-    };
-    Change {
-        scene: b.scene.clone(),
-        rays: b.rays.clone(),
-        structure: b.structure.clone(),
-        threads: b.threads,
-        ratio: log.exp(),
-        drift: between.drift.exp(),
-        low: interval.low,
-        high: interval.high,
-        beyond_noise: !interval.contains(1.0),
-    }
+/// Standard deviation about a middle, by the median deviation.
+fn deviation(logs: &[f64], middle: f64) -> f64 {
+    let deviations: Vec<f64> = logs.iter().map(|log| (log - middle).abs()).collect();
+    NORMAL * median(&deviations).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -77,6 +77,7 @@ pub fn cell(scene: &str, rays: &str, structure: &str, ns: f64) -> Cell {
         hits: 700,
         build_ns: vec![3_000_000, 3_100_000, 2_900_000],
         trace_ns: samples.to_vec(),
+        passes: Vec::new(),
         ns_per_ray: None,
         bytes: Some(Bytes {
             structure: 4096,

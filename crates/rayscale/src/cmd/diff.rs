@@ -2,7 +2,7 @@
 
 use super::rank::Filter;
 use super::{Console, Error, Outcome, Verb};
-use crate::changes::{Change, changes};
+use crate::changes::{Change, Changes, Judged, changes};
 use crate::record;
 use crate::stats::median;
 use clap::Args;
@@ -11,8 +11,9 @@ use std::path::PathBuf;
 
 /// Show changes of time per ray from one record to another
 ///
-/// Changes beyond noise are marked: those whose interval leaves out 1. It is a bootstrap interval over the raw samples (99 %),
-/// widened by how far the other structures' cells spread and drift between the two records.
+/// Compares the least times per ray: of each structure as a whole (the middle of its cells' ratios) and of each cell.
+/// Changes beyond noise are marked: those whose range leaves out 1. The range is as wide as a bootstrap over the raw
+/// samples and passes says, and as the other structures spread about their drift between the two records, several times over.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale diff before.json after.json
@@ -25,10 +26,10 @@ pub struct Diff {
     after: PathBuf,
     #[command(flatten)]
     filter: Filter,
-    /// Show changes within noise as well
+    /// Show what is within noise as well
     #[arg(long)]
     all: bool,
-    /// Exit with 1 if any cell got slower beyond noise, and by more than so much, such as 10%
+    /// Exit with 1 if any structure or cell got slower beyond noise, and by more than so much, such as 10%
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     fail_above: Option<f64>,
 }
@@ -46,10 +47,7 @@ impl Verb for Diff {
         let after = record::read(&self.after)?;
         before.cells.retain(|cell| self.filter.takes(cell));
         let all = changes(&before, &after);
-        let marked = all.iter().filter(|change| change.beyond_noise).count();
-        let mut shown: Vec<&Change> = all.iter().filter(|c| self.all || c.beyond_noise).collect();
-        shown.sort_by(|a, b| b.relative().total_cmp(&a.relative()));
-        let mut text = format!("{marked} of {} shared cells changed beyond noise", all.len());
+        let mut text = headline(&all);
         if before.machine != after.machine {
             text.push_str("\nthe records are from different machines or modes");
         }
@@ -59,21 +57,59 @@ impl Verb for Diff {
                 "\nall together: {drift:.3} (the machine, or what all share); what follows is relative to the other structures"
             );
         }
-        for change in &shown {
-            let Change { scene, rays, structure, low, high, beyond_noise, .. } = change;
-            let ratio = change.relative();
-            let mark = if *beyond_noise { "*" } else { " " };
-            let _ = write!(text, "\n{mark} {ratio:6.3}  [{low:.3}, {high:.3}]  {scene} {rays} {structure}");
+        let mut shown = Changes {
+            structures: all.structures.iter().filter(|s| self.shows(&s.judged)).cloned().collect(),
+            cells: all.cells.iter().filter(|c| self.shows(&c.judged)).cloned().collect(),
+        };
+        shown.structures.sort_by(|a, b| b.judged.relative().total_cmp(&a.judged.relative()));
+        shown.cells.sort_by(|a, b| b.judged.relative().total_cmp(&a.judged.relative()));
+        for shift in &shown.structures {
+            line(&mut text, &shift.judged, &format!("{}, {}", shift.structure, cells(shift.cells)));
+        }
+        for change in &shown.cells {
+            let Change { scene, rays, structure, judged, .. } = change;
+            line(&mut text, judged, &format!("{structure} {scene} {rays}"));
         }
         console.result(&shown, text)?;
-        let slower = |limit: f64| all.iter().any(|c| c.beyond_noise && c.relative() > 1.0 + limit);
+        let slower = |limit: f64| judged(&all).any(|c| c.beyond_noise && c.relative() > 1.0 + limit);
         Ok(if self.fail_above.is_some_and(slower) { Outcome::Failed } else { Outcome::Done })
     }
 }
 
+impl Diff {
+    fn shows(&self, judged: &Judged) -> bool {
+        self.all || judged.beyond_noise
+    }
+}
+
+fn judged(all: &Changes) -> impl Iterator<Item = &Judged> {
+    all.structures.iter().map(|s| &s.judged).chain(all.cells.iter().map(|c| &c.judged))
+}
+
+fn headline(all: &Changes) -> String {
+    let structures = all.structures.iter().filter(|s| s.judged.beyond_noise).count();
+    let marked = all.cells.iter().filter(|c| c.judged.beyond_noise).count();
+    format!(
+        "{structures} of {} structures changed beyond noise, and {marked} of {} shared cells by themselves",
+        all.structures.len(),
+        all.cells.len()
+    )
+}
+
+fn cells(n: usize) -> String {
+    if n == 1 { "its one cell".to_owned() } else { format!("the middle of {n} cells") }
+}
+
+fn line(text: &mut String, judged: &Judged, what: &str) {
+    let Judged { low, high, beyond_noise, .. } = judged;
+    let mark = if *beyond_noise { "*" } else { " " };
+    // Writing to a string does not fail.
+    let _ = write!(text, "\n{mark} {:6.3}  [{low:.3}, {high:.3}]  {what}", judged.relative());
+}
+
 /// The middle of all ratios, if that is more than a few per cent from 1.
-fn drift(all: &[Change]) -> Option<f64> {
-    let ratios: Vec<f64> = all.iter().map(|change| change.ratio).collect();
+fn drift(all: &Changes) -> Option<f64> {
+    let ratios: Vec<f64> = all.cells.iter().map(|change| change.judged.ratio).collect();
     median(&ratios).filter(|ratio| ratio.ln().abs() > 0.03)
 }
 

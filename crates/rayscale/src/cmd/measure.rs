@@ -41,6 +41,10 @@ pub struct Effort {
     /// Most samples of a cell
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=10_000))]
     pub rounds: u16,
+    /// Passes over the ray sets of a scene that share these samples, each with other builds where there is time
+    /// [default: 3; 5 from 15 rounds on]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub passes: Option<u16>,
     /// Spend about so long in all, such as 90s or 1h30m: the cells share the time, and what none is left for is skipped
     #[arg(long, value_name = "DURATION", value_parser = units::duration)]
     pub time_budget: Option<Duration>,
@@ -88,6 +92,7 @@ pub fn measure(
         seed: selection.seed,
         options: Options {
             threads: console.threads().unwrap_or(1),
+            passes: usize::from(effort.passes.unwrap_or(if effort.rounds < 15 { 3 } else { 5 })),
             rounds: usize::from(effort.rounds),
             least_rounds: defaults.least_rounds.min(usize::from(effort.rounds)),
             counters: effort.counters,
@@ -98,7 +103,7 @@ pub fn measure(
         command: without_resume(&command_line()),
     };
     let begun = begun(&session, &choices, effort, out)?;
-    let steps = session.scenes.len() * session.rays.len();
+    let steps = session.scenes.len() * session.rays.len() * session.options.passes();
     let bar = console.bar(steps as u64, "measuring");
     let mut unwritten = None;
     let record = console.in_pool(1, || {
@@ -107,7 +112,10 @@ pub fn measure(
                 bar.inc(1);
             }
             if bar.is_hidden() {
-                console.note(line);
+                // Further passes are no news to a log.
+                if !line.starts_with("    ") {
+                    console.note(line);
+                }
             } else {
                 bar.set_message(line.trim().to_owned());
             }

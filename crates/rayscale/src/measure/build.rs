@@ -9,33 +9,52 @@ use crate::record::Bytes;
 use crate::registry::Choice;
 use accel::{Accel, Group, Need, Scene};
 
-/// A structure on its way through a scene, or the reason why it has none.
+/// A structure on its way through a scene.
 pub struct Built<'s> {
-    /// The structure, and what it needs to be built again.
-    pub accel: Result<Box<dyn Accel + 's>, String>,
+    /// The structure, or why there is none.
+    pub accel: Result<Box<dyn Accel + 's>, Absent>,
     /// Build times in ns.
     pub build_ns: Vec<u64>,
     /// Memory.
     pub bytes: Option<Bytes>,
 }
 
-/// Builds every choice for its need: once watched for memory, then round by round for time.
+/// Why there is no structure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Absent {
+    /// Its memory is in use elsewhere until the next pass.
+    Dropped,
+    /// It can't be built.
+    Failed(String),
+}
+
+impl Built<'_> {
+    /// Frees the structure's memory; the next pass builds it anew.
+    pub fn drop_structure(&mut self) {
+        if self.accel.is_ok() {
+            self.accel = Err(Absent::Dropped);
+        }
+    }
+}
+
+/// Builds every choice for its need: in the first pass (when `all` is empty) once watched for memory, then round by
+/// round for time, as many times as are due by the end of that pass.
 ///
 /// None if interrupted.
 pub fn build_all<'s>(
     scene: &'s Scene,
     wanted: &[(&Choice, Need)],
-    options: &Options,
+    (options, pass): (&Options, usize),
     watch: &Watch,
-) -> Option<Vec<Built<'s>>> {
-    let mut all = Vec::new();
-    for (choice, need) in wanted {
+    all: &mut Vec<Built<'s>>,
+) -> Option<()> {
+    for (choice, need) in &wanted[all.len()..] {
         if watch.interrupted() {
             return None;
         }
         all.push(watched(scene, choice, need));
     }
-    for round in 0..options.build_rounds {
+    for round in 0..options.due(options.build_rounds, pass) {
         for place in 0..wanted.len() {
             if watch.interrupted() {
                 return None;
@@ -43,14 +62,22 @@ pub fn build_all<'s>(
             let i = (place + round) % wanted.len();
             let (choice, need) = &wanted[i];
             let built = &mut all[i];
-            let spent: u64 = built.build_ns.iter().sum();
-            let more = round < options.least_builds || u128::from(spent) < options.build_time.as_nanos();
-            if built.accel.is_ok() && more {
+            let (count, spent) = (built.build_ns.len(), built.build_ns.iter().sum::<u64>());
+            let in_time = u128::from(spent) < options.time_due(options.build_time, pass).as_nanos();
+            let least = options.least_builds.min(options.build_rounds);
+            let more = count < options.due(least, pass)
+                || in_time && count < options.due(options.build_rounds, pass);
+            let wants = match built.accel {
+                Ok(_) => more,
+                Err(Absent::Dropped) => true,
+                Err(Absent::Failed(_)) => false,
+            };
+            if wants {
                 timed(scene, choice, need, Clock::of(options.threads), built);
             }
         }
     }
-    Some(all)
+    Some(())
 }
 
 /// Builds; what the builder refuses and what it panics with are both told in words.
@@ -80,7 +107,7 @@ fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Built<'s> {
         }
         bytes
     });
-    Built { accel, build_ns: Vec::new(), bytes }
+    Built { accel: accel.map_err(Absent::Failed), build_ns: Vec::new(), bytes }
 }
 
 fn timed<'s>(scene: &'s Scene, choice: &Choice, need: &Need, clock: Clock, built: &mut Built<'s>) {
@@ -91,5 +118,5 @@ fn timed<'s>(scene: &'s Scene, choice: &Choice, need: &Need, clock: Clock, built
         built.build_ns.push(ns);
     }
     // Dropping the former structure is not part of building the new one.
-    built.accel = again;
+    built.accel = again.map_err(Absent::Failed);
 }

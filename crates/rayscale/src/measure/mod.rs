@@ -1,4 +1,5 @@
-//! Measuring: builds first, then rays, round by round over all structures of a scene.
+//! Measuring: in passes over the ray sets of a scene; in each builds first, then rays, round by round over all
+//! structures.
 //!
 //! Build times, trace times and memory come from separate runs. The first build is
 //! watched for memory and not timed; the first trace warms up, is compared with brute force
@@ -6,6 +7,7 @@
 //! outside of the timed section.
 
 mod build;
+mod entry;
 mod guard;
 mod memory;
 mod pace;
@@ -34,6 +36,10 @@ use std::time::Duration;
 pub struct Options {
     /// Threads that build and trace. Recorded; the caller provides the pool.
     pub threads: usize,
+    /// Passes over the ray sets of a scene, which share the samples. Each begins with other builds, where there is time
+    /// for them, so that samples differ in when they were taken and in how memory was laid out, as those of other
+    /// runs do.
+    pub passes: usize,
     /// Most samples of a cell.
     pub rounds: usize,
     /// Fewest samples of a cell, whatever the time.
@@ -64,6 +70,7 @@ impl Default for Options {
         let speed = if Level::best() == Level::Portable { 1 } else { 4 };
         Self {
             threads: 1,
+            passes: 3,
             rounds: 7,
             least_rounds: 3,
             cell_time: Duration::from_millis(250),
@@ -76,5 +83,22 @@ impl Default for Options {
             sample_time: Duration::from_secs(4),
             counters: false,
         }
+    }
+}
+
+impl Options {
+    /// Passes that there are samples for.
+    pub fn passes(&self) -> usize {
+        self.passes.clamp(1, self.rounds.max(1))
+    }
+
+    /// How many of `all` samples are due by the end of a pass, the first being pass 0.
+    fn due(&self, all: usize, pass: usize) -> usize {
+        (all * (pass + 1)).div_ceil(self.passes())
+    }
+
+    /// How much of a time.
+    fn time_due(&self, all: Duration, pass: usize) -> Duration {
+        all.mul_f64((pass + 1) as f64 / self.passes() as f64)
     }
 }

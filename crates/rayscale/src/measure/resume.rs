@@ -158,6 +158,30 @@ mod tests {
     }
 
     #[test]
+    fn passes_that_are_lacking_are_added() {
+        let mut session = Session { rays: vec![RaysId::Random, RaysId::Parallel], ..session(16) };
+        let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+        session.watch = Watch::new(flag.clone(), None);
+        let choices = choices(&["ssm", "minmax"]);
+        let stop = |record: &Record| {
+            let again = record.cells[0].passes.len() == 2;
+            flag.store(again, std::sync::atomic::Ordering::Relaxed);
+        };
+        let begun = run(&session, &choices, begin(&session, &choices), |_| (), stop).unwrap();
+        let passes = |record: &Record| record.cells.iter().map(|c| c.passes.len()).collect::<Vec<_>>();
+        assert_eq!(passes(&begun), [2, 2, 1, 1]);
+        assert!(!begun.run.unwrap().complete);
+        flag.store(false, std::sync::atomic::Ordering::Relaxed);
+        let whole = resume(begun.clone(), &session, &choices).unwrap();
+        let whole = run(&session, &choices, whole, |_| (), |_| ()).unwrap();
+        assert_eq!(passes(&whole), [3; 4]);
+        for (before, after) in begun.cells.iter().zip(&whole.cells) {
+            assert_eq!(after.trace_ns[..before.trace_ns.len()], before.trace_ns);
+            assert_eq!(after.trace_ns.len(), after.passes.iter().sum::<usize>());
+        }
+    }
+
+    #[test]
     fn without_time_everything_is_named_as_left_out() {
         let session =
             Session { watch: Watch::new(Default::default(), Some(Default::default())), ..session(16) };

@@ -9,11 +9,10 @@ use crate::clock::Clock;
 use crate::machine::Machine;
 use crate::rays::{self, RaysId, RaysSpec};
 use crate::rayset::Workload;
-use crate::record::{FORMAT, Query, Record, Run, SceneEntry, Skipped, Structure, Suite};
+use crate::record::{Cell, FORMAT, Query, Record, Run, SceneEntry, Skipped, Structure, Suite};
 use crate::registry::{self, Choice};
 use crate::scene::{self, SceneError, SceneSpec};
 use accel::{KernelId, Scene};
-use std::collections::BTreeSet;
 use std::time::SystemTime;
 
 /// What is to be measured.
@@ -50,7 +49,8 @@ pub enum SessionError {
 }
 
 /// Measures what `record` lacks, which is a new one ([`begin`]) or one to go on with ([`super::resume`]). `tell` gets
-/// a line for every scene and ray set; `keep` gets the record after every ray set. What can't be done is in
+/// a line for every scene, indented ones for its ray sets and, further in, for further passes over them; `keep` gets the record
+/// after every ray set of every pass. What can't be done is in
 /// the record with its reason.
 ///
 /// An interruption is no error: the record is what is done by then, and says that it is not complete.
@@ -163,18 +163,20 @@ fn one_scene(
     keep: &mut impl FnMut(&Record),
 ) {
     let workloads = workloads(session, scene, &mut record.skipped);
-    let here = record.cells.iter().filter(|cell| cell.scene == scene.id && cell.threads == options.threads);
-    let done: BTreeSet<_> = here.map(|cell| (cell.rays.clone(), cell.structure.clone())).collect();
-    let job = Job { scene, workloads: &workloads, choices, options, done: &done, watch: &session.watch };
-    let told = |workload: &Workload| format!("  {}", workload.id);
+    let here = |cell: &&Cell| cell.scene == scene.id && cell.threads == options.threads;
+    let known: Vec<Cell> = record.cells.iter().filter(here).cloned().collect();
+    let job = Job { scene, workloads: &workloads, choices, options, known: &known, watch: &session.watch };
+    let is_known = |w: &Workload| known.iter().any(|cell| cell.rays == w.id);
     let mut left: Vec<&Workload> =
-        workloads.iter().filter(|w| choices.iter().any(|c| job.wants(w, c))).collect();
-    workloads.iter().filter(|w| !left.contains(w)).for_each(|w| tell(&told(w)));
-    measure(&job, |workload, cells| {
-        record.cells.extend(cells);
+        workloads.iter().filter(|w| choices.iter().any(|c| job.lacks(w, c)) && !is_known(w)).collect();
+    measure(&job, |workload, pass, cells| {
+        cells.into_iter().for_each(|cell| put(record, cell));
         left.retain(|w| w.id != workload.id);
         keep(record);
-        tell(&told(workload));
+        tell(&match pass {
+            0 => format!("  {}", workload.id),
+            pass => format!("    {}, pass {} of {}", workload.id, pass + 1, options.passes()),
+        });
     });
     if session.watch.interrupted() {
         return;
@@ -186,6 +188,15 @@ fn one_scene(
         record.memory.extend(memory_rows(scene, &RESOLUTIONS));
     }
     keep(record);
+}
+
+/// Adds a cell to the record, or replaces what it was after an earlier pass.
+fn put(record: &mut Record, cell: Cell) {
+    let same = |old: &&mut Cell| old.key() == cell.key() && old.structure == cell.structure;
+    match record.cells.iter_mut().find(same) {
+        Some(old) => *old = cell,
+        None => record.cells.push(cell),
+    }
 }
 
 /// A record of nothing yet.

@@ -40,6 +40,10 @@ pub struct Cell {
     pub build_ns: Vec<u64>,
     /// Times for all rays in ns, in the order taken.
     pub trace_ns: Vec<u64>,
+    /// How many of them each pass over the scene took: between passes there is time, and structures are built anew.
+    /// Empty in records of old, which were taken in one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub passes: Vec<usize>,
     /// Summary of the trace times; none where there is no sample.
     pub ns_per_ray: Option<Timing>,
     /// Memory.
@@ -88,6 +92,21 @@ impl Cell {
     pub fn samples_per_ray(&self) -> Vec<f64> {
         let rays = self.ray_count.max(1) as f64;
         self.trace_ns.iter().map(|ns| *ns as f64 / rays).collect()
+    }
+
+    /// Samples in ns per ray, pass by pass.
+    pub fn passes_per_ray(&self) -> Vec<Vec<f64>> {
+        let samples = self.samples_per_ray();
+        if self.passes.iter().sum::<usize>() != samples.len() {
+            return vec![samples];
+        }
+        let mut rest = samples.as_slice();
+        let mut next = |n: &usize| {
+            let (pass, others) = rest.split_at(*n);
+            rest = others;
+            pass.to_vec()
+        };
+        self.passes.iter().map(&mut next).collect()
     }
 
     /// Sets the summary by the samples.
@@ -172,6 +191,9 @@ mod tests {
         cell.summarise();
         assert_eq!(cell.ns_per_ray, Some(Timing { median: 20.0, mad: 10.0, min: 10.0 }));
         assert_eq!((cell.ns(), cell.build()), (Some(20.0), Some(6.0)));
+        assert_eq!(cell.passes_per_ray(), [[10.0, 30.0, 20.0]]);
+        cell.passes = vec![1, 2];
+        assert_eq!(cell.passes_per_ray(), [vec![10.0], vec![30.0, 20.0]]);
         cell.error = Some("lost hits".into());
         assert_eq!((cell.ns(), cell.build()), (None, None));
     }

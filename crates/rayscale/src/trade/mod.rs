@@ -11,10 +11,10 @@ pub use row::{Row, mark_front, table};
 
 use crate::check::oracle_of;
 use crate::machine::Machine;
-use crate::measure::{Job, Options, Session, guard, guarded_build, measure, workloads};
+use crate::measure::{Job, Options, Session, Watch, guard, guarded_build, measure, workloads};
 use crate::rays::RaysId;
 use crate::rayset::Workload;
-use crate::record::{SceneEntry, Skipped, Suite};
+use crate::record::{Cell, SceneEntry, Skipped, Suite};
 use crate::registry::{self, Choice, StructureSpec};
 use crate::scene::{self, SceneError, SceneSpec};
 use crate::stats::geometric_mean;
@@ -147,10 +147,13 @@ fn one_scene(
     session.size = plan.judged;
     let judged = workloads(&session, scene, skipped);
     let choices = &*crate::auto::resolve(choices, scene, &judged);
-    let (done, watch) = Default::default();
-    let job = Job { scene, workloads: &timed, choices, options: &plan.options, done: &done, watch: &watch };
-    let mut cells = Vec::new();
-    measure(&job, |_, more| cells.extend(more));
+    let watch = Watch::default();
+    let job = Job { scene, workloads: &timed, choices, options: &plan.options, known: &[], watch: &watch };
+    let mut cells: Vec<Cell> = Vec::new();
+    measure(&job, |workload, _, more| {
+        cells.retain(|cell| cell.rays != workload.id);
+        cells.extend(more);
+    });
     let truths: Vec<(&Workload, Truth)> = judged.iter().map(|w| (w, Truth::of(oracle, &w.rays))).collect();
     let extent = scene.geometry.bounds().extent().max_element();
     let mut rows = Vec::new();

@@ -137,6 +137,7 @@ fn cell(scene: &str, objects: u64, rays: &str, structure: &str, (ns, bytes): (f6
             .map(|f| (objects as f64 * ns.ln() * 40.0 * f / (1.0 + ns / 900.0)) as u64)
             .into(),
         trace_ns: [1.0, 1.03, 0.98, 1.3, 1.01].map(|f| (ns * f * 100_000.0) as u64).into(),
+        passes: Vec::new(),
         ns_per_ray: None,
         bytes: Some(Bytes {
             structure: (bytes * objects as f64) as u64,

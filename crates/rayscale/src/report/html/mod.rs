@@ -73,7 +73,7 @@ pub fn html(record: &Record, pictures: &Pictures) -> String {
         "memory",
         "Memory against speed",
         &format!(
-            "<p class=\"note\">Down and left is better. The dashed line is the Pareto front: nothing measured is \
+            "<p class=\"note\">Down and left is better. The dashed line is the Pareto front: nothing measured of these is \
              both smaller and faster. Memory is the structure and its copy of the geometry.</p>{}",
             sections::memory_and_speed(&overall, &styles)
         ),
@@ -129,7 +129,8 @@ struct Page {
 impl Page {
     fn section(&mut self, id: &str, title: &str, html: &str) {
         // Writing to a string does not fail.
-        let _ = writeln!(self.navigation, "<li><a href=\"#{id}\">{}</a></li>", escape(title));
+        let short = title.split(',').next().unwrap_or(title);
+        let _ = writeln!(self.navigation, "<li><a href=\"#{id}\">{}</a></li>", escape(short));
         let _ = writeln!(self.body, "<section id=\"{id}\"><h2>{}</h2>\n{html}</section>", escape(title));
     }
 

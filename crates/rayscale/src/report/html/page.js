@@ -66,13 +66,12 @@
         row.hidden = !fits;
         shown += fits;
       }
+      // What is longer stays off the paper.
+      filters.nextElementSibling.classList.toggle("long", shown > 60);
       filters.querySelector("output").textContent =
         shown === rows.length ? `${shown} rows` : `${shown} of ${rows.length} rows`;
     };
     search.addEventListener("input", apply);
     choices.forEach((choice) => choice.addEventListener("change", apply));
   }
-
-  // On paper everything is open.
-  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((d) => { d.open = true; }));
 })();

@@ -22,14 +22,14 @@ fn chart(heading: &str, svg: &str, caption: &str) -> String {
 pub fn memory_and_speed(overall: &[Overall], styles: &Styles) -> String {
     let mut html = String::from("<div class=\"charts\">\n");
     for rays in overall {
-        let Some(svg) = charts::pareto(rays, styles) else { continue };
-        let mut caption = format!("Geometric means over {} scenes.", rays.scenes.len());
+        let Some((svg, words)) = charts::pareto(rays, styles) else { continue };
+        let mut caption = format!("Geometric means over {} scenes. {}", rays.scenes.len(), escape(&words));
         if !rays.left_out.is_empty() {
             let names: Vec<String> =
                 rays.left_out.iter().map(|(name, n)| format!("{} ({n})", escape(name))).collect();
             let _ = write!(caption, " On too few scenes to compare: {}.", names.join(", "));
         }
-        html += &chart(rays.rays, &svg, &caption);
+        html += &chart(rays.rays, &svg, caption.trim_end());
     }
     html + "</div>\n"
 }

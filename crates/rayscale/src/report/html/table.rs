@@ -46,6 +46,9 @@ impl Value {
     }
 }
 
+/// Tables with more rows than this stay off the paper; `page.js` has the same number for what filters leave.
+const ON_PAPER: usize = 60;
+
 /// A table with filters for the columns of `choices` and a search field.
 pub fn table(id: &str, columns: &[Column], choices: &[usize], rows: &[Vec<Value>]) -> String {
     let mut html = String::new();
@@ -62,7 +65,8 @@ pub fn table(id: &str, columns: &[Column], choices: &[usize], rows: &[Vec<Value>
         );
     }
     let _ = writeln!(html, "<output aria-live=\"polite\">{} rows</output></div>", rows.len());
-    let _ = write!(html, "<div class=\"scroll\" tabindex=\"0\"><table id=\"{id}\"><thead><tr>");
+    let long = if rows.len() > ON_PAPER { " long" } else { "" };
+    let _ = write!(html, "<div class=\"scroll{long}\" tabindex=\"0\"><table id=\"{id}\"><thead><tr>");
     for Column { name, is_figure } in columns {
         let class = if *is_figure { " class=\"n\"" } else { "" };
         let _ =
@@ -78,6 +82,11 @@ pub fn table(id: &str, columns: &[Column], choices: &[usize], rows: &[Vec<Value>
         }
         html.push_str("</tr>\n");
     }
-    html.push_str("</tbody></table></div>\n");
+    let _ = writeln!(
+        html,
+        "</tbody></table></div>\n<p class=\"note paper\">{} rows: they are in the page itself and in cells.csv. Filter \
+         them to {ON_PAPER} or fewer to have them printed.</p>",
+        rows.len()
+    );
     html
 }

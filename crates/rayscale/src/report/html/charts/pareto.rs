@@ -2,18 +2,34 @@
 
 use super::super::aggregate::{Overall, front};
 use super::super::labels::{line, place};
-use super::super::scale::trimmed;
+use super::super::scale::{short, trimmed};
 use super::super::style::Styles;
 use super::super::svg::Anchor;
 use super::frame::{Axis, Frame};
 use crate::units;
 
-/// Bytes per object against ns per ray, a point for each structure; `None` without two points.
-pub fn pareto(overall: &Overall, styles: &Styles) -> Option<String> {
-    let rows: Vec<_> = overall.rows.iter().filter_map(|row| Some((row, row.bytes?))).collect();
+/// Structures that are so many times as slow as the fastest would crowd the others into a corner.
+const FAR: f64 = 50.0;
+
+/// Bytes per object against ns per ray, a point for each structure; `None` without two points. With it, what is not
+/// drawn, in words.
+pub fn pareto(overall: &Overall, styles: &Styles) -> Option<(String, String)> {
+    let all = overall.rows.iter().filter_map(|row| Some((row, row.bytes?)));
+    let fastest = overall.rows.first()?.ns;
+    let (rows, far): (Vec<_>, Vec<_>) = all.partition(|(row, _)| row.ns <= FAR * fastest);
     if rows.len() < 2 {
         return None;
     }
+    let far: Vec<String> = far
+        .iter()
+        .map(|(row, bytes)| {
+            format!("{} ({}×, {} B)", row.structure, short(row.ns / fastest), trimmed(*bytes))
+        })
+        .collect();
+    let words = match far.len() {
+        0 => String::new(),
+        _ => format!("Not drawn, over {FAR} times the fastest one's time: {}.", far.join(", ")),
+    };
     let figures: Vec<(f64, f64)> = rows.iter().map(|(row, bytes)| (*bytes, row.ns)).collect();
     let (bytes, ns): (Vec<f64>, Vec<f64>) = figures.iter().copied().unzip();
     let label = |bytes: f64| format!("{} B", trimmed(bytes));
@@ -51,5 +67,5 @@ pub fn pareto(overall: &Overall, styles: &Styles) -> Option<String> {
             }
         });
     }
-    Some(svg.finish(&format!("Memory against speed for {} rays", overall.rays)))
+    Some((svg.finish(&format!("Memory against speed for {} rays", overall.rays)), words))
 }
