@@ -38,6 +38,7 @@ pub fn rays(scene: &Scene, id: RaysId, size: u32) -> RaySet {
 
 /// Built for the rays, or `None` where the structure doesn't serve them.
 pub fn build<'s>(choice: &Choice, scene: &'s Scene, rays: &RaySet) -> Option<Box<dyn Accel + 's>> {
+    rayscale::registry::keep_to_one_thread();
     choice.builder.build(scene, &Need::of(rays)).ok()
 }
 

@@ -5,6 +5,7 @@
 
 pub mod denormals;
 pub mod device;
+pub mod one_thread;
 pub mod rayhit;
 pub mod scene;
 mod structure;
@@ -12,5 +13,6 @@ pub mod sys;
 
 pub use denormals::Denormals;
 pub use device::{Device, EmbreeError, MemoryUse, version};
+pub use one_thread::keep_to_one_thread;
 pub use scene::{EmbreeScene, Quality, SceneSettings};
 pub use structure::{EmbreeBuilder, Variant};

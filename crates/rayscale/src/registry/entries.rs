@@ -209,6 +209,13 @@ static ALL: &[Entry] = &[
     },
 ];
 
+/// Has libraries that bring threads of their own keep to those of the caller, in this process from now on. To be
+/// called before anything is built.
+pub fn keep_to_one_thread() {
+    #[cfg(feature = "embree")]
+    adapter_embree::keep_to_one_thread();
+}
+
 pub(super) fn all() -> &'static [Entry] {
     ALL
 }

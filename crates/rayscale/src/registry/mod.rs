@@ -8,6 +8,7 @@ mod error;
 mod kernel;
 mod settings;
 
+pub use entries::keep_to_one_thread;
 pub use error::RegistryError;
 pub use kernel::{AUTO, ChosenKernel};
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
