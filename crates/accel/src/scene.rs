@@ -3,6 +3,11 @@
 use crate::kernel::{Corners, Kernel, KernelId, WithKernel};
 use crate::objects::{Boxes, Objects, Triangles};
 use crate::{Aabb, Vec3};
+use glam::Vec3A;
+use rayon::prelude::*;
+
+/// Triangles looked at by one task.
+const CHUNK: usize = 1 << 14;
 
 /// Indexed triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,8 +30,16 @@ impl Mesh {
 
     /// The box of all triangles; positions that no triangle uses don't count.
     pub fn bounds(&self) -> Aabb {
-        let corners = self.triangles.iter().flatten();
-        Aabb::of_points(corners.map(|corner| self.positions[*corner as usize]))
+        let of = |triangles: &[[u32; 3]]| {
+            let (mut min, mut max) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+            for triangle in triangles {
+                let [a, b, c] = triangle.map(|corner| Vec3A::from(self.positions[corner as usize]));
+                min = min.min(a.min(b).min(c));
+                max = max.max(a.max(b).max(c));
+            }
+            Aabb { min: min.into(), max: max.into() }
+        };
+        self.triangles.par_chunks(CHUNK).map(of).reduce(|| Aabb::EMPTY, |a, b| a.union(b))
     }
 }
 

@@ -65,20 +65,47 @@ struct Corner {
     scaled_error: [f64; 2],
 }
 
-/// A closed range of an image coordinate.
+/// A closed range of an image coordinate, for each of `L` boxes.
 #[derive(Clone, Copy)]
-struct Span {
-    low: f64,
-    high: f64,
+struct Spans<const L: usize> {
+    low: [f64; L],
+    high: [f64; L],
+}
+
+type Span = Spans<1>;
+
+impl<const L: usize> Spans<L> {
+    const EMPTY: Self = Self { low: [f64::INFINITY; L], high: [f64::NEG_INFINITY; L] };
 }
 
 impl Span {
-    const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
-
-    #[inline(always)]
     fn include(&mut self, low: f64, high: f64) {
-        self.low = self.low.min(low);
-        self.high = self.high.max(high);
+        self.low[0] = self.low[0].min(low);
+        self.high[0] = self.high[0].max(high);
+    }
+}
+
+/// Offsets of the corners of `L` boxes from the origin, axis by axis.
+#[derive(Clone, Copy)]
+struct Offsets<const L: usize> {
+    low: [[f64; L]; 3],
+    high: [[f64; L]; 3],
+}
+
+/// [`Pixels`] of `L` boxes.
+#[derive(Clone, Copy)]
+pub struct PixelLanes<const L: usize> {
+    rows: [[u32; L]; 2],
+    cols: [[u32; L]; 2],
+    near: [f32; L],
+}
+
+impl<const L: usize> PixelLanes<L> {
+    /// Those of one box.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Pixels {
+        let range = |of: &[[u32; L]; 2]| of[0][lane]..of[1][lane];
+        Pixels { rows: range(&self.rows), cols: range(&self.cols), near: self.near[lane] }
     }
 }
 
@@ -123,19 +150,32 @@ impl ImageSpace {
     /// The pixels that may see `bounds`; all of them where the raster's arithmetic is beyond all bounds.
     #[inline(always)]
     pub fn pixels(&self, bounds: &Aabb) -> Pixels {
-        let (spans, t) = match self.projection {
-            Projection::Parallel => self.parallel(bounds),
-            Projection::Perspective => {
-                self.before_the_eye(bounds).unwrap_or_else(|| self.perspective(bounds))
+        self.pixels_of(&[*bounds]).lane(0)
+    }
+
+    /// [`ImageSpace::pixels`] of several boxes: loops over lanes, which compilers make vectors of.
+    #[inline(always)]
+    pub fn pixels_of<const L: usize>(&self, bounds: &[Aabb; L]) -> PixelLanes<L> {
+        let mut offsets = Offsets { low: [[0.0; L]; 3], high: [[0.0; L]; 3] };
+        for axis in 0..3 {
+            for lane in 0..L {
+                offsets.low[axis][lane] = f64::from(bounds[lane].min[axis]) - self.origin[axis];
+                offsets.high[axis][lane] = f64::from(bounds[lane].max[axis]) - self.origin[axis];
             }
-        };
-        let [mut cols, mut rows] = spans;
-        for (span, margin) in [&mut cols, &mut rows].into_iter().zip(self.margin) {
-            *span = Span { low: span.low - margin, high: span.high + margin };
         }
-        let near = t - t.abs() * (self.t_error * 2.0 + 2.0 * accel::objects::T_SLACK);
-        let near = if near > 0.0 { (near as f32).next_down() } else { 0.0 };
-        Pixels { rows: centres(rows, self.rows), cols: centres(cols, self.cols), near }
+        let ([cols, rows], t) = match self.projection {
+            Projection::Parallel => self.parallel(&offsets),
+            Projection::Perspective => self.perspective(&offsets),
+        };
+        let mut near = [0.0; L];
+        for lane in 0..L {
+            let least = t[lane] - t[lane].abs() * (self.t_error * 2.0 + 2.0 * accel::objects::T_SLACK);
+            let least = if least > 0.0 { least as f32 } else { 0.0 };
+            // The next number down, if that isn't negative.
+            near[lane] = f32::from_bits(least.to_bits().saturating_sub(1));
+        }
+        let rows = centres(&rows, self.margin[1], self.rows);
+        PixelLanes { rows, cols: centres(&cols, self.margin[0], self.cols), near }
     }
 
     /// About where a ray of the raster passes the image: column and row, in pixels from its outer corner.
@@ -155,61 +195,88 @@ impl ImageSpace {
 
     /// Ranges of columns and rows, and the least t.
     #[inline(always)]
-    fn parallel(&self, bounds: &Aabb) -> ([Span; 2], f64) {
-        let [low, high] = self.offsets(bounds);
+    fn parallel<const L: usize>(&self, offsets: &Offsets<L>) -> ([Spans<L>; 2], [f64; L]) {
+        let Offsets { low, high } = offsets;
         // A loop, as closures given to `map` may be compiled without the instruction set of the caller.
-        let mut ranges = [Span::EMPTY; 3];
+        let mut ranges = [Spans::EMPTY; 3];
         for (range, form) in ranges.iter_mut().zip(&self.forms) {
-            let (mut least, mut most, mut error) = (0.0, 0.0, 0.0);
+            let (mut least, mut most, mut error) = ([0.0; L], [0.0; L], [0.0; L]);
             for axis in 0..3 {
-                let (a, b) = (form[axis] * low[axis], form[axis] * high[axis]);
-                least += if a < b { a } else { b };
-                most += if a < b { b } else { a };
-                error += if a.abs() > b.abs() { a.abs() } else { b.abs() };
+                for lane in 0..L {
+                    let (a, b) = (form[axis] * low[axis][lane], form[axis] * high[axis][lane]);
+                    least[lane] += if a < b { a } else { b };
+                    most[lane] += if a < b { b } else { a };
+                    error[lane] += if a.abs() > b.abs() { a.abs() } else { b.abs() };
+                }
             }
-            *range = Span { low: least - error * ROUNDING, high: most + error * ROUNDING };
+            for lane in 0..L {
+                range.low[lane] = least[lane] - error[lane] * ROUNDING;
+                range.high[lane] = most[lane] + error[lane] * ROUNDING;
+            }
         }
-        ([ranges[1], ranges[2]], ranges[0].low - self.t_moved)
+        let [mut t, cols, rows] = ranges;
+        t.low.iter_mut().for_each(|t| *t -= self.t_moved);
+        ([cols, rows], t.low)
     }
 
-    /// [`ImageSpace::perspective`] for a box well before the eye: about the image of its centre, column or row c,
-    /// the form of c' - c is (scaled - c t) / t, whose numerator is small over the whole box.
+    /// Ranges of columns and rows, and the least t.
+    ///
+    /// For a box well before the eye: about the image of its centre, column or row c, the form of c' - c is
+    /// (scaled - c t) / t, whose numerator is small over the whole box. For others [`ImageSpace::about_the_eye`].
     #[inline(always)]
-    fn before_the_eye(&self, bounds: &Aabb) -> Option<([Span; 2], f64)> {
-        let [low, high] = self.offsets(bounds);
-        let (mut center, mut half) = ([0.0; 3], [0.0; 3]);
+    fn perspective<const L: usize>(&self, offsets: &Offsets<L>) -> ([Spans<L>; 2], [f64; L]) {
+        let (mut center, mut half) = ([[0.0; L]; 3], [[0.0; L]; 3]);
         for axis in 0..3 {
-            (center[axis], half[axis]) = ((low[axis] + high[axis]) * 0.5, (high[axis] - low[axis]) * 0.5);
+            for lane in 0..L {
+                let (low, high) = (offsets.low[axis][lane], offsets.high[axis][lane]);
+                (center[axis][lane], half[axis][lane]) = ((low + high) * 0.5, (high - low) * 0.5);
+            }
         }
         let [depth, ref scaled @ ..] = self.forms;
-        let middle = dot(depth, center);
-        let error = (dot_abs(depth, center) + dot_abs(depth, half)) * ROUNDING;
-        let least = middle - dot_abs(depth, half) - error;
-        // NaN is not well before the eye.
-        if !(least > 0.9375 * middle && least > 16.0 * error) {
-            return None;
+        let (mut least, mut from_middle, mut from_least) = ([0.0; L], [0.0; L], [0.0; L]);
+        let mut before = [false; L];
+        for lane in 0..L {
+            let (center, half) = (point(&center, lane), point(&half, lane));
+            let middle = dot(depth, center);
+            let error = (dot_abs(depth, center) + dot_abs(depth, half)) * ROUNDING;
+            least[lane] = middle - dot_abs(depth, half) - error;
+            // NaN is not well before the eye.
+            before[lane] = (least[lane] > 0.9375 * middle) & (least[lane] > 16.0 * error);
+            (from_middle[lane], from_least[lane]) = (1.0 / middle, 1.0 / least[lane]);
         }
-        let (from_middle, from_least) = (1.0 / middle, 1.0 / least);
-        let mut spans = [Span::EMPTY; 2];
+        let mut spans = [Spans::EMPTY; 2];
         for (span, form) in spans.iter_mut().zip(scaled) {
-            let at = dot(*form, center) * from_middle;
-            let (mut numerator, mut reach, mut error) = (0.0, 0.0, 0.0);
-            for axis in 0..3 {
-                let shifted = form[axis] - at * depth[axis];
-                numerator += shifted * center[axis];
-                reach += shifted.abs() * half[axis];
-                let size = form[axis].abs() + (at * depth[axis]).abs();
-                error += size * (center[axis].abs() + half[axis]);
+            for lane in 0..L {
+                let (center, half) = (point(&center, lane), point(&half, lane));
+                let at = dot(*form, center) * from_middle[lane];
+                let (mut numerator, mut reach, mut error) = (0.0, 0.0, 0.0);
+                for axis in 0..3 {
+                    let shifted = form[axis] - at * depth[axis];
+                    numerator += shifted * center[axis];
+                    reach += shifted.abs() * half[axis];
+                    let size = form[axis].abs() + (at * depth[axis]).abs();
+                    error += size * (center[axis].abs() + half[axis]);
+                }
+                let reach =
+                    (numerator.abs() + reach + error * ROUNDING) * from_least[lane] * (1.0 + ROUNDING);
+                (span.low[lane], span.high[lane]) = (at - reach, at + reach);
             }
-            let reach = (numerator.abs() + reach + error * ROUNDING) * from_least * (1.0 + ROUNDING);
-            span.include(at - reach, at + reach);
         }
-        Some((spans, least))
+        for lane in 0..L {
+            if !before[lane] {
+                let low = point(&offsets.low, lane);
+                let (exact, t) = self.about_the_eye(low, point(&offsets.high, lane));
+                for (span, exact) in spans.iter_mut().zip(exact) {
+                    (span.low[lane], span.high[lane]) = (exact.low[0], exact.high[0]);
+                }
+                least[lane] = t;
+            }
+        }
+        (spans, least)
     }
 
     #[inline(never)]
-    fn perspective(&self, bounds: &Aabb) -> ([Span; 2], f64) {
-        let [low, high] = self.offsets(bounds);
+    fn about_the_eye(&self, low: Vector, high: Vector) -> ([Span; 2], f64) {
         let corners: [Corner; 8] = std::array::from_fn(|i| {
             let point: Vector = std::array::from_fn(|a| if i >> a & 1 == 0 { low[a] } else { high[a] });
             let [t, col, row] = self.forms.map(|form| dot(form, point));
@@ -229,16 +296,6 @@ impl ImageSpace {
             }
         }
         (spans, least_t)
-    }
-
-    #[inline(always)]
-    fn offsets(&self, bounds: &Aabb) -> [Vector; 2] {
-        let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
-        for axis in 0..3 {
-            low[axis] = f64::from(bounds.min[axis]) - self.origin[axis];
-            high[axis] = f64::from(bounds.max[axis]) - self.origin[axis];
-        }
-        [low, high]
     }
 }
 
@@ -289,27 +346,44 @@ impl Corner {
             let error = 4.0 * (self.scaled_error[axis] + back.scaled_error[axis])
                 + 4.0 * step.abs() * (self.t_error + back.t_error) / (self.t - back.t);
             if at >= -error {
-                span.high = f64::INFINITY;
+                span.high[0] = f64::INFINITY;
             }
             if at <= error {
-                span.low = f64::NEG_INFINITY;
+                span.low[0] = f64::NEG_INFINITY;
             }
         }
     }
 }
 
-/// The pixels 0..n whose centre lies in the span, or all if it is not known.
+/// First and end of the pixels of 0..n whose centre lies in the span widened by the margin, or of all if it is
+/// not known.
 #[inline(always)]
-fn centres(span: Span, n: u32) -> Range<u32> {
-    if span.low.is_nan() || span.high.is_nan() {
-        return 0..n;
-    }
+fn centres<const L: usize>(span: &Spans<L>, margin: f64, n: u32) -> [[u32; L]; 2] {
+    let (mut firsts, mut ends) = ([0; L], [0; L]);
     let count = f64::from(n);
-    // Conversions of what is not negative round down; `ceil` and `floor` are calls on old machines.
-    let low = (span.low - 0.5).clamp(0.0, count);
-    let first = low as u32 + u32::from(low > f64::from(low as u32));
-    let end = (span.high + 0.5).clamp(0.0, count) as u32;
-    if first < end { first..end } else { 0..0 }
+    for lane in 0..L {
+        let (low, high) = (span.low[lane] - margin, span.high[lane] + margin);
+        let unknown = low.is_nan() | high.is_nan();
+        // Conversions of what is not negative round down; `ceil` and `floor` are calls on old machines.
+        let low = (low - 0.5).clamp(0.0, count);
+        let first = low as u32 + u32::from(low > f64::from(low as u32));
+        let end = (high + 0.5).clamp(0.0, count) as u32;
+        let none = first >= end;
+        firsts[lane] = if unknown | none { 0 } else { first };
+        ends[lane] = if unknown {
+            n
+        } else if none {
+            0
+        } else {
+            end
+        };
+    }
+    [firsts, ends]
+}
+
+#[inline(always)]
+fn point<const L: usize>(lanes: &[[f64; L]; 3], lane: usize) -> Vector {
+    [lanes[0][lane], lanes[1][lane], lanes[2][lane]]
 }
 
 fn cross(a: Vector, b: Vector) -> Vector {

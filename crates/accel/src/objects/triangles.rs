@@ -95,8 +95,16 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
         let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
         let mut rows = vec![Row([f32::NAN; ROW]); groups * K::ROWS];
         let pack = |(group, ids): (&mut [Row], &[u32])| {
-            for (lane, id) in ids.iter().enumerate().filter(|(_, id)| **id != EMPTY_SLOT) {
-                K::pack(&self.frame.corners(&self.corners(*id)), group, lane);
+            // In steps of their own, so that all lanes wait for memory at the same time.
+            let mut corners = [[0; 3]; ROW];
+            for (corners, id) in corners.iter_mut().zip(ids).filter(|(_, id)| **id != EMPTY_SLOT) {
+                *corners = self.mesh.triangles[*id as usize];
+            }
+            for (lane, corners) in corners.iter().enumerate().take(ids.len()) {
+                if ids[lane] != EMPTY_SLOT {
+                    let corners = corners.map(|corner| self.mesh.positions[corner as usize]);
+                    K::pack(&self.frame.corners(&corners), group, lane);
+                }
             }
         };
         rows.par_chunks_exact_mut(K::ROWS).zip(order.par_chunks(ROW)).with_min_len(512).for_each(pack);

@@ -165,7 +165,7 @@ impl Scene {
         let extent = bounds.extent();
         let longest = extent.max_element();
         let extent = (if longest > 0.0 { extent / longest } else { extent }).to_array();
-        let curve = spread.curve(items.len(), &frame, extent);
+        let curve = spread.curve(&frame, extent);
         let mut keys = vec![0; items.len()];
         let chunks = items.par_chunks_mut(CHUNK).zip(keys.par_chunks_mut(CHUNK));
         chunks.for_each(|(items, keys)| simd.run(Unit { frame: &frame, curve, extent, items, keys }));
@@ -190,19 +190,26 @@ impl<O: Objects> Task for Found<'_, O> {
             let Aabb { min, max } = self.objects.bounds(id);
             *item = Item::new(id, 1, &UnitBox { min: min.to_array(), max: max.to_array() });
             all.gather_signed(&item.extremes());
+        }
+        for item in self.items.iter().step_by(SPARSE) {
             for axis in 0..3 {
-                let center = 0.5 * (f64::from(min[axis]) + f64::from(max[axis]));
+                let center = 0.5 * f64::from(item.low[axis]) - 0.5 * f64::from(item.high[axis]);
                 spread.sum[axis] += center;
                 spread.squares[axis] += center * center;
             }
+            spread.count += 1;
         }
         (all, spread)
     }
 }
 
+/// Of so many objects one is enough to say how they spread; it is odd, as meshes come in pairs and fours.
+const SPARSE: usize = 7;
+
 /// Sums over the centres of boxes.
 #[derive(Clone, Copy, Default)]
 struct Spread {
+    count: usize,
     sum: [f64; 3],
     squares: [f64; 3],
 }
@@ -212,6 +219,7 @@ type Curve = [(f32, f32); 3];
 
 impl Spread {
     fn add(&mut self, other: &Self) {
+        self.count += other.count;
         for axis in 0..3 {
             self.sum[axis] += other.sum[axis];
             self.squares[axis] += other.squares[axis];
@@ -220,11 +228,11 @@ impl Spread {
 
     /// A curve over what lies within three standard deviations, so that a few objects far away don't put all
     /// others into a few cells. Cells are as wide as they are long.
-    fn curve(&self, count: usize, frame: &Grid, extent: [f32; 3]) -> Curve {
+    fn curve(&self, frame: &Grid, extent: [f32; 3]) -> Curve {
         let (mut from, mut longest) = ([0.0; 3], 0.0f32);
         for axis in 0..3 {
-            let mean = self.sum[axis] / count.max(1) as f64;
-            let deviation = (self.squares[axis] / count.max(1) as f64 - mean * mean).max(0.0).sqrt();
+            let mean = self.sum[axis] / self.count.max(1) as f64;
+            let deviation = (self.squares[axis] / self.count.max(1) as f64 - mean * mean).max(0.0).sqrt();
             from[axis] = frame.unit(axis, mean - 3.0 * deviation).clamp(0.0, 1.0) as f32;
             let end = frame.unit(axis, mean + 3.0 * deviation).clamp(0.0, 1.0) as f32;
             longest = longest.max((end - from[axis]) * extent[axis]);

@@ -54,8 +54,7 @@ impl<O: Objects> General<O> {
         let simd = settings.simd;
         let Scene { frame, extent, items, keys } = Scene::new(objects, simd);
         let shape = Shape { extent };
-        let Order { slots, maps, blocks } = Order::new(&shape, &items, keys, settings);
-        drop(items);
+        let Order { slots, maps, blocks } = Order::new(&shape, items, keys, settings);
         let nodes = tree::over(&shape, blocks, simd);
         Self { frame, maps, nodes, objects: objects.blocks(&slots), simd }
     }

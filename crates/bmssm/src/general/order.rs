@@ -4,7 +4,7 @@
 use super::Settings;
 use super::item::{Extremes, Item, is_large};
 use super::maps::BlockMaps;
-use super::split::{Divide, Left, Shape};
+use super::split::{Divide, Left, Scratch, Shape};
 use accel::morton;
 use accel::objects::{BLOCK, EMPTY_SLOT};
 use accel::simd::{Level, Simd, Task};
@@ -22,15 +22,22 @@ pub struct Order {
 
 impl Order {
     /// Orders objects with these boxes and keys.
-    pub fn new(shape: &Shape, boxes: &[Item], keys: Vec<u64>, settings: Settings) -> Self {
+    pub fn new(shape: &Shape, boxes: Vec<Item>, keys: Vec<u64>, settings: Settings) -> Self {
         let keys = morton::sort_by_key(keys);
+        // Copied at once, as nothing but the copies then has to wait for memory.
+        let along = |key: &u64| boxes[*key as u32 as usize];
+        let items: Vec<Item> = keys.par_iter().with_min_len(CHUNK).map(along).collect();
+        drop(boxes);
         let small = keys.partition_point(|key| !is_large(*key));
-        let mut small_clusters = clusters(boxes, &keys[..small], 0);
-        let mut large_clusters = clusters(boxes, &keys[small..], small);
-        let mut scratch = small_clusters.clone();
+        let mut small_clusters = clusters(&items, &keys[..small], 0);
+        let mut large_clusters = clusters(&items, &keys[small..], small);
+        drop(keys);
+        let most = small_clusters.len().max(large_clusters.len());
+        let (mut room, mut marks) = (vec![Item::EMPTY; most], vec![0; most]);
+        let mut scratch = Scratch { items: &mut room, marks: &mut marks };
         let mut parts = split(shape, &mut small_clusters, &mut scratch, settings.simd);
-        let mut scratch = large_clusters.clone();
         parts.extend(split(shape, &mut large_clusters, &mut scratch, settings.simd));
+        drop((room, marks));
         let blocks = |part: &Part| part.objects.div_ceil(BLOCK);
         let all = parts.iter().map(blocks).sum();
         let mut order = Self {
@@ -54,28 +61,23 @@ impl Order {
             rooms.push((part, room));
         }
         rooms.into_par_iter().for_each_init(Buffers::default, |buffers, (part, room)| {
-            settings.simd.run(Cut {
-                shape,
-                boxes,
-                keys: &keys,
-                part,
-                room,
-                buffers,
-                stretch: settings.stretch,
-            });
+            settings.simd.run(Cut { shape, items: &items, part, room, buffers, stretch: settings.stretch });
         });
         order
     }
 }
+
+/// Objects copied by one task.
+const CHUNK: usize = 1 << 12;
 
 /// Objects that a cluster has on average, at most.
 const CLUSTER: usize = 8;
 /// Objects that a cluster has at most.
 const MOST: usize = 16;
 
-/// Runs of neighbours along the curve that share a cell: the place of the first, and how many there are. The
-/// first of all keys is at `place`.
-fn clusters(boxes: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
+/// Runs of neighbours along the curve that share a cell: the place of the first among `items`, and how many there
+/// are. The first key is that of the item at `place`.
+fn clusters(items: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
     // How many runs there are with cells of each size, by the highest bit in which neighbours differ.
     let mut differ = [0usize; 33];
     for pair in keys.windows(2) {
@@ -96,7 +98,7 @@ fn clusters(boxes: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
         let mut range = Extremes::NONE;
         let mut end = first;
         while end < keys.len() && end < first + MOST && cell(keys[end]) == here {
-            range.gather(&boxes[keys[end] as u32 as usize].extremes());
+            range.gather(&items[place + end].extremes());
             end += 1;
         }
         clusters.push(Item::new((place + first) as u32, (end - first) as u32, &range.bounds()));
@@ -117,7 +119,7 @@ pub const PART: usize = 64 * BLOCK;
 /// From this many clusters on the two parts are split by two threads.
 const PARALLEL: usize = 1 << 12;
 
-fn split<'c>(shape: &Shape, clusters: &'c mut [Item], scratch: &mut [Item], simd: Level) -> Vec<Part<'c>> {
+fn split<'c>(shape: &Shape, clusters: &'c mut [Item], scratch: &mut Scratch, simd: Level) -> Vec<Part<'c>> {
     let objects = clusters.iter().map(|cluster| cluster.weight() as usize).sum();
     if objects <= PART || clusters.len() == 1 {
         if objects == 0 {
@@ -126,15 +128,14 @@ fn split<'c>(shape: &Shape, clusters: &'c mut [Item], scratch: &mut [Item], simd
         return vec![Part { clusters, objects }];
     }
     let left = Left::Packed(BLOCK);
-    let at = simd.run(Divide { shape, items: &mut *clusters, scratch: &mut *scratch, left });
+    let at = simd.run(Divide { shape, items: &mut *clusters, scratch, left });
     let parallel = clusters.len() >= PARALLEL;
     let (left, right) = clusters.split_at_mut(at);
-    let (left_scratch, right_scratch) = scratch.split_at_mut(at);
-    let (mut parts, rest) = if parallel {
-        rayon::join(|| split(shape, left, left_scratch, simd), || split(shape, right, right_scratch, simd))
-    } else {
-        (split(shape, left, left_scratch, simd), split(shape, right, right_scratch, simd))
-    };
+    let [mut left_scratch, mut right_scratch] = scratch.split_at(at);
+    let (left, right) = ((left, &mut left_scratch), (right, &mut right_scratch));
+    let halve = |(clusters, scratch)| split(shape, clusters, scratch, simd);
+    let (mut parts, rest) =
+        if parallel { rayon::join(|| halve(left), || halve(right)) } else { (halve(left), halve(right)) };
     parts.extend(rest);
     parts
 }
@@ -153,14 +154,15 @@ struct Room<'o> {
 struct Buffers {
     items: Vec<Item>,
     scratch: Vec<Item>,
+    marks: Vec<u8>,
     open: Vec<(usize, usize)>,
 }
 
 /// Splits one part into blocks.
 struct Cut<'a, 'o> {
     shape: &'a Shape,
-    boxes: &'a [Item],
-    keys: &'a [u64],
+    /// All objects along the curve.
+    items: &'a [Item],
     part: Part<'a>,
     room: Room<'o>,
     buffers: &'a mut Buffers,
@@ -172,10 +174,13 @@ impl Task for Cut<'_, '_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) {
-        let Self { shape, boxes, keys, part, room, buffers, stretch } = self;
-        let Buffers { items, scratch, open } = buffers;
+        let Self { shape, items: all, part, room, buffers, stretch } = self;
+        let Buffers { items, scratch, marks, open } = buffers;
         let Part { clusters, objects } = part;
-        scratch.resize(scratch.len().max(PART), Item::EMPTY);
+        let most = PART.max(clusters.len());
+        scratch.resize(most, Item::EMPTY);
+        marks.resize(most, 0);
+        let scratch = &mut Scratch { items: scratch, marks };
         items.clear();
         open.clear();
         // By clusters, as far as wanted. What is left over of a block belongs to the next stretch.
@@ -188,9 +193,7 @@ impl Task for Cut<'_, '_> {
             if weight <= stretch || clusters.len() == 1 {
                 for cluster in &*clusters {
                     let first = cluster.number() as usize;
-                    for key in &keys[first..first + cluster.weight() as usize] {
-                        items.push(boxes[*key as u32 as usize]);
-                    }
+                    items.extend_from_slice(&all[first..first + cluster.weight() as usize]);
                 }
                 let so_far = items.len() / BLOCK * BLOCK;
                 if stretches.last().is_some_and(|last| *last < so_far) {
@@ -255,7 +258,7 @@ mod tests {
         let boxes: Vec<Item> = (0..9000).map(|i| point(i, [0.5; 3])).collect();
         let keys = (0..9000).map(|i| morton::keyed(7, i)).collect();
         let settings = Settings { simd: Level::Portable, stretch: 128 };
-        let order = Order::new(&Shape { extent: [1.0; 3] }, &boxes, keys, settings);
+        let order = Order::new(&Shape { extent: [1.0; 3] }, boxes, keys, settings);
         assert_eq!(order.blocks.len(), order.maps.len());
         let mut slots: Vec<u32> = order.slots.into_iter().filter(|slot| *slot != EMPTY_SLOT).collect();
         slots.sort_unstable();

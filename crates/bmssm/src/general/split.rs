@@ -26,8 +26,31 @@ pub enum Left {
 /// Bins of the sweep that looks for a split.
 const BINS: usize = 16;
 
+/// Bins in which items are marked, as many in each of [`BINS`].
+const FINE: usize = 64;
+
 /// Either part holds at least this part of the items, so that the depth stays logarithmic.
 const LEAST_PART: usize = 32;
+
+/// A split is looked for among about so many items; among more, the best split changes little.
+const SAMPLE: usize = 256;
+
+/// What a division overwrites.
+pub struct Scratch<'a> {
+    /// Room for as many items.
+    pub items: &'a mut [Item],
+    /// A byte for each.
+    pub marks: &'a mut [u8],
+}
+
+impl Scratch<'_> {
+    /// That of the items before `at`, and that of the others.
+    pub fn split_at(&mut self, at: usize) -> [Scratch<'_>; 2] {
+        let (left, right) = self.items.split_at_mut(at);
+        let (left_marks, right_marks) = self.marks.split_at_mut(at);
+        [Scratch { items: left, marks: left_marks }, Scratch { items: right, marks: right_marks }]
+    }
+}
 
 impl Shape {
     /// Half the surface of a box.
@@ -40,12 +63,12 @@ impl Shape {
     }
 
     /// Reorders the items into two parts, neither empty, and returns the first part's length. Within a
-    /// part the items stay in order. `scratch` is overwritten.
+    /// part the items stay in order.
     ///
     /// # Panics
     /// If there are fewer than two items, no more than a packet, or less scratch than items.
     #[inline(always)]
-    pub fn divide(&self, items: &mut [Item], scratch: &mut [Item], left: Left) -> usize {
+    pub fn divide(&self, items: &mut [Item], scratch: &mut Scratch, left: Left) -> usize {
         let len = items.len();
         let packet = match left {
             Left::Whole(packet) => packet,
@@ -56,43 +79,56 @@ impl Shape {
             let left = left.clamp(len / LEAST_PART, len - len / LEAST_PART);
             ((left + packet / 2) / packet * packet).clamp(packet, (len - 1) / packet * packet)
         };
-        let Some(bins) = Bins::new(items) else {
+        let stride = (len / SAMPLE).max(1);
+        let Some(bins) = self.bins(items, stride) else {
             return even(len / 2);
         };
-        let axis = self.widest(&bins);
-        if len <= 2 * packet && packet > 1 {
-            return bins.part(items, scratch, axis, packet);
-        }
-        let Some((bin, count)) = self.best_bin(&bins, axis, items, left) else {
-            return even(len / 2);
+        let marks = &mut scratch.marks[..len];
+        let counts = bins.mark(items, marks);
+        let wanted = if packet > 1 && len <= 2 * packet {
+            packet
+        } else {
+            match self.best_bin(items, marks, stride, left) {
+                Some(bin) => even(counts[..bin * (FINE / BINS)].iter().sum::<u32>() as usize),
+                None => even(len / 2),
+            }
         };
-        let wanted = even(count);
-        if wanted == count {
-            return partition(items, scratch, |item| bins.of(item, axis) < bin);
-        }
-        bins.part(items, scratch, axis, wanted)
+        partition(items, scratch.items, marks, &counts, wanted);
+        wanted
     }
 
-    /// The axis on which the centres truly range farthest.
+    /// Bins over the axis on which the centres of every `stride`th item truly range farthest; `None` where they
+    /// coincide.
     #[inline(always)]
-    fn widest(&self, bins: &Bins) -> usize {
-        let width = |axis: usize| bins.width[axis] * self.extent[axis];
+    fn bins(&self, items: &[Item], stride: usize) -> Option<Bins> {
+        let mut all = Extremes::NONE;
+        for item in items.iter().step_by(stride) {
+            all.gather(&item.centers());
+        }
+        let UnitBox { min, max } = all.bounds();
+        let width = |axis: usize| (max[axis] - min[axis]) * self.extent[axis];
         let axis = usize::from(width(1) > width(0));
-        if width(2) > width(axis) { 2 } else { axis }
+        let axis = if width(2) > width(axis) { 2 } else { axis };
+        let width = max[axis] - min[axis];
+        (width > 1e-7).then(|| Bins { axis, from: min[axis], scale: (FINE - 1) as f32 / width })
     }
 
-    /// The bin of this axis before which to split, and the number of items before it; `None` where all
-    /// are in one bin.
+    /// The bin before which to split; `None` where all items looked at are in one bin.
     #[inline(always)]
-    fn best_bin(&self, bins: &Bins, axis: usize, items: &[Item], left: Left) -> Option<(usize, usize)> {
-        let mut ranges = [Extremes::NONE; BINS];
-        let mut counts = [[0u32; 2]; BINS];
-        for item in items {
-            let bin = bins.of(item, axis) & (BINS - 1);
-            let [count, weight] = &mut counts[bin];
-            *count += 1;
-            *weight += item.weight();
-            ranges[bin].gather(&item.extremes());
+    fn best_bin(&self, items: &[Item], marks: &[u8], stride: usize, left: Left) -> Option<usize> {
+        // Items take turns between two sets, as neighbours tend to share a bin and would wait for each other.
+        let mut ranges = [[Extremes::NONE; BINS]; 2];
+        let mut weights = [[0u32; BINS]; 2];
+        for (i, (item, mark)) in items.iter().zip(marks).step_by(stride).enumerate() {
+            let bin = usize::from(*mark) / (FINE / BINS) & (BINS - 1);
+            weights[i & 1][bin] += item.weight();
+            ranges[i & 1][bin].gather(&item.extremes());
+        }
+        let [mut ranges, others] = ranges;
+        let [mut weights, other_weights] = weights;
+        for bin in 0..BINS {
+            ranges[bin].gather(&others[bin]);
+            weights[bin] = (weights[bin] + other_weights[bin]) * stride as u32;
         }
         // In quarters of packets, so that splits within a few packets tell apart.
         let quarter = match left {
@@ -102,41 +138,40 @@ impl Shape {
         let cost = |range: &Extremes, weight: u32| {
             if weight == 0 { 0.0 } else { self.area(&range.bounds()) * weight.div_ceil(quarter) as f32 }
         };
-        let mut right_cost = [0.0; BINS];
+        let mut right = [(0.0, 0); BINS];
         let (mut range, mut weight) = (Extremes::NONE, 0);
         for bin in (1..BINS).rev() {
             range.gather(&ranges[bin]);
-            weight += counts[bin][1];
-            right_cost[bin] = cost(&range, weight);
+            weight += weights[bin];
+            right[bin] = (cost(&range, weight), weight);
         }
-        let mut best = (f32::INFINITY, 0, 0);
-        let (mut range, mut count, mut weight) = (Extremes::NONE, 0, 0);
+        let mut best = (f32::INFINITY, 0);
+        let (mut range, mut weight) = (Extremes::NONE, 0);
         for bin in 1..BINS {
             range.gather(&ranges[bin - 1]);
-            count += counts[bin - 1][0] as usize;
-            weight += counts[bin - 1][1];
-            let total = cost(&range, weight) + right_cost[bin];
-            if count > 0 && count < items.len() && total < best.0 {
-                best = (total, bin, count);
+            weight += weights[bin - 1];
+            let total = cost(&range, weight) + right[bin].0;
+            if weight > 0 && right[bin].1 > 0 && total < best.0 {
+                best = (total, bin);
             }
         }
-        (best.0 < f32::INFINITY).then_some((best.1, best.2))
+        (best.0 < f32::INFINITY).then_some(best.1)
     }
 }
 
 /// [`Shape::divide`] at an instruction set.
-pub struct Divide<'a> {
+pub struct Divide<'a, 'b> {
     /// What splits weigh.
     pub shape: &'a Shape,
     /// As there.
     pub items: &'a mut [Item],
     /// As there.
-    pub scratch: &'a mut [Item],
+    pub scratch: &'a mut Scratch<'b>,
     /// As there.
     pub left: Left,
 }
 
-impl Task for Divide<'_> {
+impl Task for Divide<'_, '_> {
     type Out = usize;
 
     #[inline(always)]
@@ -145,79 +180,61 @@ impl Task for Divide<'_> {
     }
 }
 
-/// Bins of equal width over the range of centres.
+/// Bins of equal width over the range of centres on an axis.
 struct Bins {
-    from: [f32; 3],
-    width: [f32; 3],
-    /// Bins per unit; 0 where all centres coincide.
-    scale: [f32; 3],
+    axis: usize,
+    from: f32,
+    /// Bins per unit.
+    scale: f32,
 }
-
-/// Bins that look for the middle, of which a last one may be cut.
-const FINE: usize = 64;
 
 impl Bins {
+    /// Marks each item with its bin, the outermost for those beyond, and counts them.
     #[inline(always)]
-    fn new(items: &[Item]) -> Option<Self> {
-        let mut all = Extremes::NONE;
-        for item in items {
-            all.gather(&item.centers());
+    fn mark(&self, items: &[Item], marks: &mut [u8]) -> [u32; FINE] {
+        let last = (FINE - 1) as f32;
+        let mut counts = [[0u32; FINE]; 2];
+        for (i, (item, mark)) in items.iter().zip(marks).enumerate() {
+            let place = (item.center(self.axis) - self.from) * self.scale;
+            let place = if place > 0.0 { place } else { 0.0 };
+            let bin = whole(if place < last { place } else { last }) as usize & (FINE - 1);
+            *mark = bin as u8;
+            counts[i & 1][bin] += 1;
         }
-        let UnitBox { min, max } = all.bounds();
-        let (mut scale, mut width) = ([0.0; 3], [0.0; 3]);
-        for axis in 0..3 {
-            width[axis] = max[axis] - min[axis];
-            if width[axis] > 1e-7 {
-                scale[axis] = (BINS - 1) as f32 / width[axis];
-            }
-        }
-        (scale != [0.0; 3]).then_some(Self { from: min, width, scale })
-    }
-
-    #[inline(always)]
-    fn of(&self, item: &Item, axis: usize) -> usize {
-        whole((item.center(axis) - self.from[axis]) * self.scale[axis]) as usize & (BINS - 1)
-    }
-
-    /// Moves the first `left` items in the order of finer bins along an axis to the front, and returns
-    /// `left`.
-    #[inline(always)]
-    fn part(&self, items: &mut [Item], scratch: &mut [Item], axis: usize, left: usize) -> usize {
-        let (from, scale) = (self.from[axis], self.scale[axis] * ((FINE - 1) as f32 / (BINS - 1) as f32));
-        let of = |item: &Item| whole((item.center(axis) - from) * scale) as usize & (FINE - 1);
-        let mut counts = [0u32; FINE];
-        for item in &*items {
-            counts[of(item)] += 1;
-        }
-        let (mut cut, mut rest) = (0, left as u32);
-        while cut < FINE - 1 && counts[cut] <= rest {
-            rest -= counts[cut];
-            cut += 1;
-        }
-        partition(items, scratch, |item| {
-            let bin = of(item);
-            let taken = bin == cut && rest > 0;
-            rest -= u32::from(taken);
-            bin < cut || taken
-        })
+        let [mut counts, others] = counts;
+        counts.iter_mut().zip(others).for_each(|(count, other)| *count += other);
+        counts
     }
 }
 
-/// Moves the items that belong left to the front, both parts staying in order, and returns their number.
+/// Moves the first `left` items in the order of marks to the front, both parts staying in order; `counts` are those
+/// of the marks.
 #[inline(always)]
-fn partition(items: &mut [Item], scratch: &mut [Item], mut is_left: impl FnMut(&Item) -> bool) -> usize {
-    let len = items.len();
+fn partition(items: &mut [Item], scratch: &mut [Item], marks: &[u8], counts: &[u32; FINE], left: usize) {
+    let (mut cut, mut rest) = (0, left as u32);
+    while cut < FINE - 1 && counts[cut] <= rest {
+        rest -= counts[cut];
+        cut += 1;
+    }
+    let (len, cut) = (items.len(), cut as u8);
+    // Of the bin that is cut, the items before `stop` belong left.
+    let mut stop = 0;
+    while rest > 0 {
+        rest -= u32::from(marks[stop] == cut);
+        stop += 1;
+    }
     let scratch = &mut scratch[..len];
     let (mut left, mut right) = (0, 0);
     // Every item is written to both places, of which one is kept: no branch to mispredict.
-    for i in 0..len {
-        let item = items[i];
-        let is_left = is_left(&item);
-        items[left] = item;
-        scratch[right] = item;
-        left += usize::from(is_left);
-        right += usize::from(!is_left);
+    for (range, end) in [(0..stop, cut + 1), (stop..len, cut)] {
+        for i in range {
+            let item = items[i];
+            let is_left = marks[i] < end;
+            items[left] = item;
+            scratch[right] = item;
+            left += usize::from(is_left);
+            right += usize::from(!is_left);
+        }
     }
     items[left..].copy_from_slice(&scratch[..right]);
-    left
 }

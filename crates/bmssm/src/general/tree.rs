@@ -5,7 +5,7 @@
 
 use super::item::{Extremes, Item};
 use super::maps::UnitBox;
-use super::split::{Divide, Left, Shape};
+use super::split::{Divide, Left, Scratch, Shape};
 use accel::simd::{Level, ROW, Row};
 
 /// Most children of a node.
@@ -56,7 +56,8 @@ pub fn over(shape: &Shape, mut blocks: Vec<Item>, simd: Level) -> Vec<Node> {
     if blocks.is_empty() {
         return nodes;
     }
-    let mut scratch = blocks.clone();
+    let (mut items, mut marks) = (blocks.clone(), vec![0; blocks.len()]);
+    let mut scratch = Scratch { items: &mut items, marks: &mut marks };
     nodes.push(Node::EMPTY);
     let bounds = Extremes::of(&blocks).bounds();
     let mut open = vec![(0, Part { items: &mut blocks, bounds })];
@@ -76,7 +77,7 @@ pub fn over(shape: &Shape, mut blocks: Vec<Item>, simd: Level) -> Vec<Node> {
 }
 
 /// Splits the part of the largest surface until there are enough children.
-fn children<'i>(shape: &Shape, part: Part<'i>, scratch: &mut [Item], simd: Level) -> Vec<Part<'i>> {
+fn children<'i>(shape: &Shape, part: Part<'i>, scratch: &mut Scratch, simd: Level) -> Vec<Part<'i>> {
     let mut parts = vec![part];
     while parts.len() < WIDTH {
         let largest = (0..parts.len())
@@ -84,7 +85,7 @@ fn children<'i>(shape: &Shape, part: Part<'i>, scratch: &mut [Item], simd: Level
             .max_by(|a, b| shape.area(&parts[*a].bounds).total_cmp(&shape.area(&parts[*b].bounds)));
         let Some(largest) = largest else { break };
         let Part { items, .. } = parts.swap_remove(largest);
-        let at = simd.run(Divide { shape, items: &mut *items, scratch: &mut *scratch, left: Left::Any });
+        let at = simd.run(Divide { shape, items: &mut *items, scratch, left: Left::Any });
         let (left, right) = items.split_at_mut(at);
         for items in [left, right] {
             let bounds = Extremes::of(items).bounds();

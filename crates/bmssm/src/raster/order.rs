@@ -4,7 +4,7 @@ use super::{Settings, THICKNESS};
 use crate::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
 use accel::simd::{Level, Simd, Task};
-use accel::{Objects, Projection, Raster};
+use accel::{Aabb, Objects, Projection, Raster};
 use rayon::prelude::*;
 
 /// Where the image shows an object.
@@ -19,6 +19,9 @@ pub(super) struct Shown {
     /// Lower bound of t.
     pub depth: f32,
 }
+
+/// Objects projected side by side.
+const LANES: usize = 8;
 
 /// Objects handled by one task.
 const CHUNK: usize = 1 << 14;
@@ -49,16 +52,22 @@ impl<O: Objects> Task for Projected<'_, O> {
     fn run<S: Simd>(self, _: S) -> Vec<Shown> {
         let end = self.objects.len().min(self.first + CHUNK);
         let mut shown = Vec::with_capacity(end - self.first);
-        for id in self.first as u32..end as u32 {
-            let pixels = self.space.pixels(&self.objects.bounds(id));
-            if !pixels.is_empty() {
-                let Pixels { rows, cols, near } = pixels;
-                shown.push(Shown {
-                    id,
-                    rows: [rows.start / THICKNESS, (rows.end - 1) / THICKNESS],
-                    cols: [cols.start / THICKNESS, (cols.end - 1) / THICKNESS],
-                    depth: near,
-                });
+        for first in (self.first..end).step_by(LANES) {
+            let mut bounds = [Aabb::EMPTY; LANES];
+            for (lane, bounds) in bounds.iter_mut().enumerate() {
+                *bounds = self.objects.bounds((first + lane).min(end - 1) as u32);
+            }
+            let pixels = self.space.pixels_of(&bounds);
+            for lane in 0..LANES.min(end - first) {
+                let Pixels { rows, cols, near } = pixels.lane(lane);
+                if rows.start < rows.end && cols.start < cols.end {
+                    shown.push(Shown {
+                        id: (first + lane) as u32,
+                        rows: [rows.start / THICKNESS, (rows.end - 1) / THICKNESS],
+                        cols: [cols.start / THICKNESS, (cols.end - 1) / THICKNESS],
+                        depth: near,
+                    });
+                }
             }
         }
         shown
