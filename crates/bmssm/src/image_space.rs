@@ -158,9 +158,9 @@ impl ImageSpace {
     pub fn pixels_of<const L: usize>(&self, bounds: &[Aabb; L]) -> PixelLanes<L> {
         let mut offsets = Offsets { low: [[0.0; L]; 3], high: [[0.0; L]; 3] };
         for axis in 0..3 {
-            for lane in 0..L {
-                offsets.low[axis][lane] = f64::from(bounds[lane].min[axis]) - self.origin[axis];
-                offsets.high[axis][lane] = f64::from(bounds[lane].max[axis]) - self.origin[axis];
+            for (lane, Aabb { min, max }) in bounds.iter().enumerate() {
+                offsets.low[axis][lane] = f64::from(min[axis]) - self.origin[axis];
+                offsets.high[axis][lane] = f64::from(max[axis]) - self.origin[axis];
             }
         }
         let ([cols, rows], t) = match self.projection {

@@ -155,7 +155,8 @@ struct Buffers {
     items: Vec<Item>,
     scratch: Vec<Item>,
     marks: Vec<u8>,
-    open: Vec<(usize, usize)>,
+    /// First, end, and whether the items are in `scratch`.
+    open: Vec<(usize, usize, bool)>,
 }
 
 /// Splits one part into blocks.
@@ -180,14 +181,13 @@ impl Task for Cut<'_, '_> {
         let most = PART.max(clusters.len());
         scratch.resize(most, Item::EMPTY);
         marks.resize(most, 0);
-        let scratch = &mut Scratch { items: scratch, marks };
         items.clear();
         open.clear();
         // By clusters, as far as wanted. What is left over of a block belongs to the next stretch.
         let mut stretches = Vec::with_capacity(PART / BLOCK + 2);
         stretches.push(0);
-        open.push((0, clusters.len()));
-        while let Some((first, end)) = open.pop() {
+        open.push((0, clusters.len(), false));
+        while let Some((first, end, _)) = open.pop() {
             let clusters = &mut clusters[first..end];
             let weight: usize = clusters.iter().map(|cluster| cluster.weight() as usize).sum();
             if weight <= stretch || clusters.len() == 1 {
@@ -200,30 +200,36 @@ impl Task for Cut<'_, '_> {
                     stretches.push(so_far);
                 }
             } else {
-                let middle = first + shape.divide(clusters, scratch, Left::Packed(BLOCK));
-                open.push((middle, end));
-                open.push((first, middle));
+                let scratch = &mut Scratch { items: &mut *scratch, marks: &mut *marks };
+                let middle = shape.divide(clusters, scratch, Left::Packed(BLOCK));
+                clusters.copy_from_slice(&scratch.items[..clusters.len()]);
+                open.push((first + middle, end, false));
+                open.push((first, first + middle, false));
             }
         }
         if stretches.last().is_some_and(|last| *last < objects) {
             stretches.push(objects);
         }
-        open.extend(stretches.windows(2).rev().map(|pair| (pair[0], pair[1])));
+        open.extend(stretches.windows(2).rev().map(|pair| (pair[0], pair[1], false)));
         let mut at = 0;
-        while let Some((first, end)) = open.pop() {
-            let items = &mut items[first..end];
-            if items.len() <= BLOCK {
-                let bounds = Extremes::of(items).bounds();
-                room.maps[at] = BlockMaps::new(s, &bounds, items);
+        // Each division copies from one of two places to the other.
+        while let Some((first, end, swapped)) = open.pop() {
+            let (from, to) =
+                if swapped { (&mut *scratch, &mut *items) } else { (&mut *items, &mut *scratch) };
+            let from = &from[first..end];
+            if from.len() <= BLOCK {
+                let bounds = Extremes::of(from).bounds();
+                room.maps[at] = BlockMaps::new(s, &bounds, from);
                 room.blocks[at] = Item::new(room.first + at as u32, 1, &bounds);
-                for (slot, item) in room.slots[at * BLOCK..].iter_mut().zip(&*items) {
+                for (slot, item) in room.slots[at * BLOCK..].iter_mut().zip(from) {
                     *slot = item.number();
                 }
                 at += 1;
             } else {
-                let middle = first + shape.divide(items, scratch, Left::Whole(BLOCK));
-                open.push((middle, end));
-                open.push((first, middle));
+                let to = &mut Scratch { items: &mut to[first..end], marks: &mut *marks };
+                let middle = first + shape.divide(from, to, Left::Whole(BLOCK));
+                open.push((middle, end, !swapped));
+                open.push((first, middle, !swapped));
             }
         }
     }

@@ -33,7 +33,7 @@ const FINE: usize = 64;
 const LEAST_PART: usize = 32;
 
 /// A split is looked for among about so many items; among more, the best split changes little.
-const SAMPLE: usize = 256;
+const SAMPLE: usize = 128;
 
 /// What a division overwrites.
 pub struct Scratch<'a> {
@@ -63,12 +63,12 @@ impl Shape {
     }
 
     /// Reorders the items into two parts, neither empty, and returns the first part's length. Within a
-    /// part the items stay in order.
+    /// part the items stay in order. They are then in `scratch.items`.
     ///
     /// # Panics
     /// If there are fewer than two items, no more than a packet, or less scratch than items.
     #[inline(always)]
-    pub fn divide(&self, items: &mut [Item], scratch: &mut Scratch, left: Left) -> usize {
+    pub fn divide(&self, items: &[Item], scratch: &mut Scratch, left: Left) -> usize {
         let len = items.len();
         let packet = match left {
             Left::Whole(packet) => packet,
@@ -81,6 +81,7 @@ impl Shape {
         };
         let stride = (len / SAMPLE).max(1);
         let Some(bins) = self.bins(items, stride) else {
+            scratch.items[..len].copy_from_slice(items);
             return even(len / 2);
         };
         let marks = &mut scratch.marks[..len];
@@ -93,7 +94,7 @@ impl Shape {
                 None => even(len / 2),
             }
         };
-        partition(items, scratch.items, marks, &counts, wanted);
+        partition(items, &mut scratch.items[..len], marks, &counts, wanted);
         wanted
     }
 
@@ -120,7 +121,7 @@ impl Shape {
         let mut ranges = [[Extremes::NONE; BINS]; 2];
         let mut weights = [[0u32; BINS]; 2];
         for (i, (item, mark)) in items.iter().zip(marks).step_by(stride).enumerate() {
-            let bin = usize::from(*mark) / (FINE / BINS) & (BINS - 1);
+            let bin = (usize::from(*mark) / (FINE / BINS)) & (BINS - 1);
             weights[i & 1][bin] += item.weight();
             ranges[i & 1][bin].gather(&item.extremes());
         }
@@ -159,11 +160,11 @@ impl Shape {
     }
 }
 
-/// [`Shape::divide`] at an instruction set.
+/// [`Shape::divide`] in place and at an instruction set.
 pub struct Divide<'a, 'b> {
     /// What splits weigh.
     pub shape: &'a Shape,
-    /// As there.
+    /// The items, before and after.
     pub items: &'a mut [Item],
     /// As there.
     pub scratch: &'a mut Scratch<'b>,
@@ -176,7 +177,9 @@ impl Task for Divide<'_, '_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, _: S) -> usize {
-        self.shape.divide(self.items, self.scratch, self.left)
+        let at = self.shape.divide(self.items, self.scratch, self.left);
+        self.items.copy_from_slice(&self.scratch.items[..self.items.len()]);
+        at
     }
 }
 
@@ -207,10 +210,10 @@ impl Bins {
     }
 }
 
-/// Moves the first `left` items in the order of marks to the front, both parts staying in order; `counts` are those
-/// of the marks.
+/// Copies the items so that the first `left` in the order of marks are at the front, both parts in the order they
+/// were; `counts` are those of the marks.
 #[inline(always)]
-fn partition(items: &mut [Item], scratch: &mut [Item], marks: &[u8], counts: &[u32; FINE], left: usize) {
+fn partition(items: &[Item], out: &mut [Item], marks: &[u8], counts: &[u32; FINE], left: usize) {
     let (mut cut, mut rest) = (0, left as u32);
     while cut < FINE - 1 && counts[cut] <= rest {
         rest -= counts[cut];
@@ -223,18 +226,13 @@ fn partition(items: &mut [Item], scratch: &mut [Item], marks: &[u8], counts: &[u
         rest -= u32::from(marks[stop] == cut);
         stop += 1;
     }
-    let scratch = &mut scratch[..len];
-    let (mut left, mut right) = (0, 0);
-    // Every item is written to both places, of which one is kept: no branch to mispredict.
+    let mut next = [left, 0];
     for (range, end) in [(0..stop, cut + 1), (stop..len, cut)] {
-        for i in range {
-            let item = items[i];
-            let is_left = marks[i] < end;
-            items[left] = item;
-            scratch[right] = item;
-            left += usize::from(is_left);
-            right += usize::from(!is_left);
+        for (item, mark) in items[range.clone()].iter().zip(&marks[range]) {
+            // Looked up rather than branched on: which side it is can't be foreseen.
+            let next = &mut next[usize::from(*mark < end)];
+            out[*next] = *item;
+            *next += 1;
         }
     }
-    items[left..].copy_from_slice(&scratch[..right]);
 }
