@@ -1,4 +1,13 @@
-//! How much memory a structure may take.
+//! How much memory a structure may take, and taking it.
+
+use rayon::prelude::*;
+
+/// A vector of equal values, written by all threads of the current pool: its memory is new to the process as a rule, and the
+/// system clears each page when it is first written to.
+pub fn filled<T: Clone + Send>(value: T, len: usize) -> Vec<T> {
+    const TASK: usize = 1 << 12;
+    rayon::iter::repeat_n(value, len).with_min_len(TASK).collect()
+}
 
 /// Taken where the system does not tell: 16 GiB.
 const UNKNOWN: u128 = 16 << 30;

@@ -90,7 +90,8 @@ fn on_all_threads(keys: Vec<u64>) -> Vec<u64> {
     let len = keys.len();
     let part = len.div_ceil(rayon::current_num_threads());
     let mut keys: Vec<AtomicU64> = keys.into_iter().map(AtomicU64::new).collect();
-    let mut sorted: Vec<AtomicU64> = (0..len).map(|_| AtomicU64::new(0)).collect();
+    let mut sorted: Vec<AtomicU64> =
+        (0..len).into_par_iter().with_min_len(VALUES).map(|_| AtomicU64::new(0)).collect();
     for of in 0..DIGITS {
         let counted = |keys: &[AtomicU64]| {
             let mut counts = [0u32; VALUES];

@@ -1,6 +1,7 @@
 //! The numbers of packed objects in as few bytes as they need.
 
 use super::EMPTY_SLOT;
+use rayon::prelude::*;
 
 /// Numbers by slot: three bytes each where all are below 2²⁴ − 1, else four.
 #[derive(Clone, Debug)]
@@ -12,14 +13,21 @@ pub(super) struct Ids {
 /// [`EMPTY_SLOT`] in three bytes.
 const EMPTY_SHORT: u32 = EMPTY_SLOT >> 8;
 
+const fn is_wide(id: u32) -> bool {
+    EMPTY_SHORT <= id && id < EMPTY_SLOT
+}
+
 impl Ids {
     pub(super) fn new(order: &[u32]) -> Self {
-        let wide = order.iter().any(|id| (EMPTY_SHORT..EMPTY_SLOT).contains(id));
+        const TASK: usize = 1 << 14;
+        let wide = order.par_chunks(TASK).any(|ids| ids.iter().any(|id| is_wide(*id)));
         let width = if wide { 4 } else { 3 };
         let mut bytes = vec![0; order.len() * width];
-        for (bytes, id) in bytes.chunks_exact_mut(width).zip(order) {
-            bytes.copy_from_slice(&id.to_le_bytes()[..width]);
-        }
+        bytes.par_chunks_mut(TASK * width).zip(order.par_chunks(TASK)).for_each(|(bytes, ids)| {
+            for (bytes, id) in bytes.chunks_exact_mut(width).zip(ids) {
+                bytes.copy_from_slice(&id.to_le_bytes()[..width]);
+            }
+        });
         Self { bytes, wide }
     }
 

@@ -8,8 +8,8 @@ use super::ids::Ids;
 use super::{BLOCK, Blocks, EMPTY_SLOT, Objects};
 use crate::kernel::{Corners, Kernel, load_corners};
 use crate::packet::{Common, NearestPacket, Packet, Vec3Lanes};
-use crate::simd::{ROW, Row, Simd};
-use crate::{Aabb, Mesh, Nearest, Ray, Surface};
+use crate::simd::{ROW, Row, Simd, prefetch};
+use crate::{Aabb, Mesh, Nearest, Ray, Surface, filled};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::marker::PhantomData;
@@ -93,24 +93,30 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
-        let mut rows = vec![Row([f32::NAN; ROW]); groups * K::ROWS];
-        let pack = |(group, ids): (&mut [Row], &[u32])| {
-            // In steps of their own, so that all lanes wait for memory at the same time.
-            let mut corners = [[0; 3]; ROW];
-            for (corners, id) in corners.iter_mut().zip(ids).filter(|(_, id)| **id != EMPTY_SLOT) {
-                *corners = self.mesh.triangles[*id as usize];
+        let mut rows = filled(Row([f32::NAN; ROW]), groups * K::ROWS);
+        let mesh = self.mesh;
+        let pack = |(group, rows): (usize, &mut [Row])| {
+            // Triangles lie anywhere in memory, their corners anywhere else: both are asked for some groups ahead.
+            let slots = |group: usize| order.iter().skip(group * ROW).take(ROW);
+            for id in slots(group + 2 * AHEAD) {
+                mesh.triangles.get(*id as usize).map(prefetch);
             }
-            for (lane, corners) in corners.iter().enumerate().take(ids.len()) {
-                if ids[lane] != EMPTY_SLOT {
-                    let corners = corners.map(|corner| self.mesh.positions[corner as usize]);
-                    K::pack(&self.frame.corners(&corners), group, lane);
+            for id in slots(group + AHEAD) {
+                for corner in mesh.triangles.get(*id as usize).into_iter().flatten() {
+                    mesh.positions.get(*corner as usize).map(prefetch);
                 }
             }
+            for (lane, id) in slots(group).enumerate().filter(|(_, id)| **id != EMPTY_SLOT) {
+                K::pack(&self.frame.corners(&self.corners(*id)), rows, lane);
+            }
         };
-        rows.par_chunks_exact_mut(K::ROWS).zip(order.par_chunks(ROW)).with_min_len(512).for_each(pack);
+        rows.par_chunks_exact_mut(K::ROWS).enumerate().with_min_len(512).for_each(pack);
         TriangleBlocks { triangles: *self, rows, ids: Ids::new(order) }
     }
 }
+
+/// Groups by which memory is asked for before it is needed; twice as many for what says where.
+const AHEAD: usize = 2;
 
 /// Triangles packed as rows of 16: four groups to a block.
 #[derive(Clone, Debug)]

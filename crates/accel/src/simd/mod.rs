@@ -31,6 +31,19 @@ pub const ROW: usize = 16;
 #[repr(C, align(64))]
 pub struct Row(pub [f32; ROW]);
 
+/// Asks for the memory at a place that is soon to be read, where there is an instruction for it.
+#[inline(always)]
+pub fn prefetch<T>(place: &T) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: SSE, which every x86-64 has, and a hint that reads nothing.
+    unsafe {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(place).cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
+}
+
 /// Proof that an instruction set is present, and its operations.
 pub trait Simd: Copy + Send + Sync + 'static {
     /// Number of lanes; divides [`ROW`].

@@ -3,7 +3,7 @@
 use super::maps::UnitBox;
 use accel::grid::Grid;
 use accel::simd::{Level, Simd, Task};
-use accel::{Aabb, Objects, Vec3, morton};
+use accel::{Aabb, Objects, Vec3, filled, morton};
 use rayon::prelude::*;
 
 /// A box, the number of what is in it, and how many objects that is.
@@ -149,7 +149,7 @@ const CHUNK: usize = 1 << 12;
 impl Scene {
     /// Of all objects.
     pub fn new<O: Objects>(objects: &O, simd: Level) -> Self {
-        let mut items = vec![Item { low: [0.0; 4], high: [0.0; 4] }; objects.len()];
+        let mut items = filled(Item { low: [0.0; 4], high: [0.0; 4] }, objects.len());
         let chunks = items.par_chunks_mut(CHUNK).enumerate();
         let found: Vec<(Extremes, Spread)> =
             chunks.map(|(chunk, items)| simd.run(Found { objects, first: chunk * CHUNK, items })).collect();

@@ -5,9 +5,9 @@ use super::Settings;
 use super::item::{Extremes, Item, is_large};
 use super::maps::BlockMaps;
 use super::split::{Divide, Left, Scratch, Shape};
-use accel::morton;
 use accel::objects::{BLOCK, EMPTY_SLOT};
 use accel::simd::{Level, Simd, Task};
+use accel::{filled, morton};
 use rayon::prelude::*;
 
 /// The objects in order, block by block.
@@ -41,8 +41,8 @@ impl Order {
         let blocks = |part: &Part| part.objects.div_ceil(BLOCK);
         let all = parts.iter().map(blocks).sum();
         let mut order = Self {
-            slots: vec![EMPTY_SLOT; all * BLOCK],
-            maps: vec![BlockMaps::EMPTY; all],
+            slots: filled(EMPTY_SLOT, all * BLOCK),
+            maps: filled(BlockMaps::EMPTY, all),
             blocks: vec![Item::EMPTY; all],
         };
         let mut rooms = Vec::with_capacity(parts.len());
@@ -67,8 +67,8 @@ impl Order {
     }
 }
 
-/// Objects copied by one task.
-const CHUNK: usize = 1 << 12;
+/// Objects handled by one task.
+const CHUNK: usize = 1 << 13;
 
 /// Objects that a cluster has on average, at most.
 const CLUSTER: usize = 8;
@@ -78,33 +78,60 @@ const MOST: usize = 16;
 /// Runs of neighbours along the curve that share a cell: the place of the first among `items`, and how many there
 /// are. The first key is that of the item at `place`.
 fn clusters(items: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
-    // How many runs there are with cells of each size, by the highest bit in which neighbours differ.
-    let mut differ = [0usize; 33];
-    for pair in keys.windows(2) {
-        differ[32 - ((pair[0] ^ pair[1]) >> 32 << 32).leading_zeros().min(32) as usize] += 1;
+    let bit = cell_bit(keys);
+    let cell = |key: u64| key >> 32 >> bit;
+    // Tasks begin where a cell does, so that there are the same clusters whatever the number of threads.
+    let mut begins = vec![0];
+    for wanted in (CHUNK..keys.len()).step_by(CHUNK) {
+        let last = *begins.last().expect("the first begin");
+        let from = wanted.max(last + 1);
+        let step = keys[from - 1..].windows(2).position(|pair| cell(pair[0]) != cell(pair[1]));
+        let Some(step) = step else { break };
+        begins.push(from + step);
     }
-    let mut runs = 1;
-    let mut bit = 32;
+    let of = |task: usize| {
+        let end = begins.get(task + 1).copied().unwrap_or(keys.len());
+        let mut clusters = Vec::with_capacity((end - begins[task]) / CLUSTER);
+        let mut first = begins[task];
+        while first < end {
+            let here = cell(keys[first]);
+            let mut range = Extremes::NONE;
+            let mut next = first;
+            while next < end && next < first + MOST && cell(keys[next]) == here {
+                range.gather(&items[place + next].extremes());
+                next += 1;
+            }
+            clusters.push(Item::new((place + first) as u32, (next - first) as u32, &range.bounds()));
+            first = next;
+        }
+        clusters
+    };
+    let tasks: Vec<Vec<Item>> = (0..begins.len()).into_par_iter().map(of).collect();
+    tasks.concat()
+}
+
+/// The lowest bit of codes that tells cells apart if clusters are to hold [`CLUSTER`] objects on average.
+fn cell_bit(keys: &[u64]) -> usize {
+    // How many cells of each size begin, by the highest bit in which neighbours differ.
+    let differ = |task: usize| {
+        let end = keys.len().min((task + 1) * CHUNK + 1);
+        let mut differ = [0usize; 33];
+        for pair in keys[task * CHUNK..end].windows(2) {
+            differ[32 - ((pair[0] ^ pair[1]) >> 32 << 32).leading_zeros().min(32) as usize] += 1;
+        }
+        differ
+    };
+    let add = |mut a: [usize; 33], b: [usize; 33]| {
+        a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+        a
+    };
+    let differ = (0..keys.len().div_ceil(CHUNK)).into_par_iter().map(differ).reduce(|| [0; 33], add);
+    let (mut runs, mut bit) = (1, 32);
     while bit > 0 && runs + differ[bit] <= keys.len() / CLUSTER {
         runs += differ[bit];
         bit -= 1;
     }
-    // Bits from `bit` on are the cell.
-    let cell = |key: u64| key >> 32 >> bit;
-    let mut clusters = Vec::with_capacity(runs + keys.len() / MOST + 1);
-    let mut first = 0;
-    while first < keys.len() {
-        let here = cell(keys[first]);
-        let mut range = Extremes::NONE;
-        let mut end = first;
-        while end < keys.len() && end < first + MOST && cell(keys[end]) == here {
-            range.gather(&items[place + end].extremes());
-            end += 1;
-        }
-        clusters.push(Item::new((place + first) as u32, (end - first) as u32, &range.bounds()));
-        first = end;
-    }
-    clusters
+    bit
 }
 
 /// Objects that are put into blocks by one task.
