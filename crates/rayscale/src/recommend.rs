@@ -105,7 +105,7 @@ fn candidate(
         match candidate.error {
             Some(error) if error <= limit => {}
             Some(error) => {
-                candidate.misfits.push(format!("{error:.1e} of its answers are wrong"));
+                candidate.misfits.push(format!("{} of its answers are wrong", per_million(error)));
                 candidate.excess = candidate.excess.max(error / limit.max(1e-12));
             }
             None => {
@@ -115,6 +115,11 @@ fn candidate(
         }
     }
     Ok(candidate)
+}
+
+/// A share of wrong answers in words.
+pub fn per_million(share: f64) -> String {
+    format!("{} in a million", (share * 1e6).round().max(1.0))
 }
 
 /// Median build time in ns.

@@ -5,7 +5,7 @@ use super::selection::Selection;
 use super::{Console, Error, Outcome, Verb};
 use crate::auto::Examiner;
 use crate::measure::{Options, Session, begin, run, workloads};
-use crate::recommend::{Candidate, Recommendation, Wish, rank};
+use crate::recommend::{self, Candidate, Recommendation, Wish, rank};
 use crate::record::Record;
 use crate::registry::{self, Choice, StructureSpec};
 use crate::scene::{self, SceneSpec};
@@ -125,12 +125,14 @@ fn quick(console: &Console, builds_count: bool) -> Options {
     let usual = Options::default();
     Options {
         threads: console.threads().unwrap_or(1),
+        passes: 2,
         rounds: 7,
         least_rounds: 3,
         // Short for each, rather than a limit of time for all, after which some would have no figure.
         cell_time: Duration::from_millis(150),
         sample_time: Duration::from_millis(400),
         build_rounds: if builds_count { 3 } else { 1 },
+        least_builds: 2,
         check_tests: usual.check_tests / 4,
         exact_rays: 200,
         ..usual
@@ -183,7 +185,7 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
     // Writing to a string does not fail.
     let _ = writeln!(
         text,
-        "    {:width$}  {:>9}  {:>9}  {:>10}  errors",
+        "    {:width$}  {:>9}  {:>9}  {:>10}  wrong answers",
         "structure", "per ray", "build", "memory"
     );
     for (i, c) in ranking.fitting.iter().enumerate() {
@@ -231,7 +233,7 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
 fn row(c: &Candidate, width: usize) -> String {
     let error = match c.error {
         Some(0.0) => "none seen".to_owned(),
-        Some(error) => format!("{error:.1e}"),
+        Some(error) => recommend::per_million(error),
         None => String::new(),
     };
     let (ns, build) = (units::time(c.ns), units::time(c.build_ns));

@@ -37,9 +37,9 @@ impl Log {
     /// Values worth a tick whose labels, as `label` writes them, have room beside each other on a
     /// horizontal axis or, if `vertical`, above each other.
     pub fn ticks(&self, vertical: bool, label: impl Fn(f64) -> String) -> Vec<(f64, String)> {
-        // From many to few: 1-2-5, powers of ten, every second one, …
-        let steps: [&[f64]; 3] = [&[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
-        let candidates = steps.iter().map(|s| (*s, 1)).chain((2..=8).map(|every| (steps[2], every)));
+        // From many to few: 1-2-3-4-6-8 (for less than a decade), 1-2-5, powers of ten, every second one, …
+        let steps: [&[f64]; 4] = [&[1.0, 2.0, 3.0, 4.0, 6.0, 8.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
+        let candidates = steps.iter().map(|s| (*s, 1)).chain((2..=8).map(|every| (steps[3], every)));
         for (mantissas, every) in candidates {
             let ticks = self.all(mantissas, every, &label);
             if ticks.len() <= 7 && self.fits(&ticks, vertical) {
