@@ -55,6 +55,8 @@ pub struct Ranking {
     pub shared: usize,
     /// Cells left out because some structure has none.
     pub left_out: usize,
+    /// The structures without a figure in some of these.
+    pub lacking: Vec<String>,
     /// From the least ratio on.
     pub places: Vec<Place>,
 }
@@ -106,6 +108,8 @@ pub fn rank<'a>(
         return Err(RankError::NoStructure(to.to_owned()));
     }
     let all = table.len();
+    let lacks = |structure: &&&str| table.values().any(|row| !row.contains_key(**structure));
+    let lacking = structures.iter().filter(lacks).map(|s| (*s).to_owned()).collect();
     table.retain(|_, row| row.len() == structures.len());
     if table.is_empty() {
         return Err(RankError::NothingShared(structures.join(", ")));
@@ -123,7 +127,8 @@ pub fn rank<'a>(
         })
         .collect();
     places.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
-    Ok(Ranking { measure, to: to.to_owned(), shared: table.len(), left_out: all - table.len(), places })
+    let (shared, left_out) = (table.len(), all - table.len());
+    Ok(Ranking { measure, to: to.to_owned(), shared, left_out, lacking, places })
 }
 
 #[cfg(test)]
@@ -137,6 +142,7 @@ mod tests {
         let ranking = rank(record.cells.iter(), "a", Measure::Trace).unwrap();
         // c failed on one of four cells: that cell counts for nobody.
         assert_eq!((ranking.shared, ranking.left_out), (3, 1));
+        assert_eq!(ranking.lacking, ["c"]);
         let order: Vec<_> = ranking.places.iter().map(|p| p.structure.as_str()).collect();
         assert_eq!(order, ["c", "a", "b"]);
         assert!((ranking.places[2].ratio - 2.0).abs() < 1e-3);

@@ -5,7 +5,7 @@ use clap::Args;
 use clap_complete::Shell;
 use std::io::{self, Write};
 
-/// Prints a script that completes rayscale's commands in your shell
+/// Print a script that completes rayscale's commands in your shell
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

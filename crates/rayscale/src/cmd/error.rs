@@ -115,7 +115,15 @@ impl Error {
                 "give --out another name to begin a new record, or leave out --resume to replace this one"
                     .into(),
             ),
-            Self::Record(_) | Self::Io { .. } | Self::Rays(_) | Self::Build(_) => None,
+            Self::Record(RecordError::Io { source, .. }) | Self::Io { source, .. } => {
+                let by_path =
+                    matches!(source.kind(), io::ErrorKind::NotFound | io::ErrorKind::PermissionDenied);
+                by_path.then(|| "check the path and who may read or write it".into())
+            }
+            Self::Record(RecordError::Syntax { .. }) => {
+                Some("name a record.json that `rayscale measure` or `rayscale compare` wrote".into())
+            }
+            Self::Record(_) | Self::Rays(_) | Self::Build(_) => None,
         }
     }
 

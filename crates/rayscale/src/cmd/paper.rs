@@ -9,7 +9,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Reproduces the paper (Skala 1993): its tables and formulas beside today's figures
+/// Reproduce the paper (Skala 1993): its tables and formulas beside today's figures
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Writes paper.json, paper.md, SVG plots and a picture. Timings use one thread.

@@ -67,13 +67,22 @@ impl Verb for Rank {
 
 fn text(ranking: &Ranking) -> String {
     let mut out = format!(
-        "{} to {}: geometric mean of ratios over {} shared cells",
+        "{} to {}: geometric mean of ratios over {}",
         ranking.measure.what(),
         ranking.to,
-        ranking.shared
+        if ranking.shared == 1 {
+            "the one shared cell".to_owned()
+        } else {
+            format!("{} shared cells", ranking.shared)
+        }
     );
     if ranking.left_out > 0 {
-        let _ = write!(out, " ({} cells left out: some structure has no figure there)", ranking.left_out);
+        let lacking = ranking.lacking.join(", ");
+        let _ = write!(
+            out,
+            "\nleft out: {} cells in which {lacking} has no figure; --rays and --structure choose what is ranked",
+            ranking.left_out
+        );
     }
     out.push('\n');
     let width = ranking.places.iter().map(|p| p.structure.len()).max().unwrap_or(0);

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::time::Duration;
 
-/// Measures quickly on your scene and says which structure to use
+/// Measure quickly on your scene and say which structure to use
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Every structure is built, checked and measured on the scene, with the settings worth trying, and
@@ -107,7 +107,7 @@ impl Verb for Recommend {
         };
         let (record, errors) = console.in_pool(1, || {
             let record =
-                run(&session, &choices, begin(&session, &choices), |line| console.note(line), |_| {});
+                run(&session, &choices, begin(&session, &choices), |line| tell(console, line), |_| {});
             let errors = if self.max_error.is_some() { errors(&session, &scene) } else { BTreeMap::new() };
             (record, errors)
         })?;
@@ -118,6 +118,13 @@ impl Verb for Recommend {
             in_words(&record, &wish, &ranking),
         )?;
         Ok(if ranking.fitting.is_empty() { Outcome::Failed } else { Outcome::Done })
+    }
+}
+
+/// Tells of scenes and ray sets; further passes are no news.
+fn tell(console: &Console, line: &str) {
+    if !line.starts_with("    ") {
+        console.note(line);
     }
 }
 

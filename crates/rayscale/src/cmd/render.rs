@@ -16,7 +16,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Renders a scene to a PNG by any structure, or shows where two structures' hits differ
+/// Render a scene to a PNG by any structure, or show where two structures' hits differ
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The scene is an id of `rayscale scenes`, a definition or a mesh; structures are listed by

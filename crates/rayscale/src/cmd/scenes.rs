@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Lists the scenes, describes one, or exports one as OBJ
+/// List the scenes, describe one, or export one as OBJ
 #[derive(Debug, Args)]
 #[command(after_help = "\
 A scene is an id of the list, a TOML definition (see scenes/) or an OBJ or ASCII PLY file.

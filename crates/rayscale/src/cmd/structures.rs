@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 use std::fmt::Write;
 
-/// Lists the structures with their settings
+/// List the structures with their settings
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

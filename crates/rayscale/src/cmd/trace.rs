@@ -13,7 +13,7 @@ use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-/// Traces rays of a CSV file and writes the nearest hits as CSV
+/// Trace rays of a CSV file and write the nearest hits as CSV
 #[derive(Debug, Args)]
 #[command(after_help = "\
 RAYS.csv has a ray a line, with or without a header:
