@@ -4,7 +4,7 @@ use accel::objects::{Boxes, Objects};
 use accel::{Mesh, vec_bytes};
 use obvhs::aabb::Aabb;
 use obvhs::ray::Ray;
-use obvhs::rt_triangle::RtTriangle;
+use obvhs::rt_triangle::{RtCompressedTriangle, RtTriangle};
 use obvhs::triangle::Triangle;
 
 /// Objects in the order of a tree's leaves.
@@ -20,33 +20,78 @@ pub trait Leaves: Send + Sync {
 }
 
 /// The corners of all triangles, as obvhs' builders take them.
-pub fn triangles_of(mesh: &Mesh) -> Vec<Triangle> {
+pub fn triangles_of<T: Packed>(mesh: &Mesh) -> Vec<Triangle> {
     let triangle = |index| {
         let [v0, v1, v2] = mesh.corners(index).map(Into::into);
-        Triangle { v0, v1, v2 }
+        T::seen(Triangle { v0, v1, v2 })
     };
     (0..mesh.triangles.len()).map(triangle).collect()
 }
 
-/// Triangles with precomputed edges and normal, 64 bytes each.
-pub struct TriangleLeaves(Vec<RtTriangle>);
+/// One of obvhs' forms of a triangle, with its test.
+pub trait Packed: for<'a> From<&'a Triangle> + Send + Sync {
+    /// Where the form sees the corners: the tree has to be built over these.
+    fn seen(triangle: Triangle) -> Triangle;
+    /// t, or +∞ for a miss.
+    fn hit(&self, ray: &Ray) -> f32;
+    /// u and v.
+    fn surface(&self, ray: &Ray) -> (f32, f32);
+}
 
-impl TriangleLeaves {
-    /// Slot i holds triangle `order[i]`; a triangle that was split is in several slots.
-    pub fn new(triangles: &[Triangle], order: &[u32]) -> Self {
-        Self(order.iter().map(|&id| RtTriangle::from(&triangles[id as usize])).collect())
+/// With precomputed edges and normal, 64 bytes.
+impl Packed for RtTriangle {
+    fn seen(triangle: Triangle) -> Triangle {
+        triangle
+    }
+
+    #[inline(always)]
+    fn hit(&self, ray: &Ray) -> f32 {
+        self.intersect(ray)
+    }
+
+    #[inline(always)]
+    fn surface(&self, ray: &Ray) -> (f32, f32) {
+        self.compute_barycentric(ray).into()
     }
 }
 
-impl Leaves for TriangleLeaves {
+/// With its edges in 16-bit floats, 24 bytes. Each triangle rounds for itself, so neighbours no longer share corners.
+impl Packed for RtCompressedTriangle {
+    fn seen(triangle: Triangle) -> Triangle {
+        let [v0, v1, v2] = Self::from(&triangle).vertices();
+        Triangle { v0, v1, v2 }
+    }
+
+    #[inline(always)]
+    fn hit(&self, ray: &Ray) -> f32 {
+        self.intersect(ray)
+    }
+
+    #[inline(always)]
+    fn surface(&self, ray: &Ray) -> (f32, f32) {
+        self.compute_barycentric(ray).into()
+    }
+}
+
+/// Triangles as obvhs packs them.
+pub struct TriangleLeaves<T>(Vec<T>);
+
+impl<T: Packed> TriangleLeaves<T> {
+    /// Slot i holds triangle `order[i]`; a triangle that was split is in several slots.
+    pub fn new(triangles: &[Triangle], order: &[u32]) -> Self {
+        Self(order.iter().map(|&id| T::from(&triangles[id as usize])).collect())
+    }
+}
+
+impl<T: Packed> Leaves for TriangleLeaves<T> {
     #[inline(always)]
     fn hit(&self, slot: usize, ray: &Ray) -> f32 {
-        self.0[slot].intersect(ray)
+        self.0[slot].hit(ray)
     }
 
     #[inline(always)]
     fn surface(&self, slot: usize, ray: &Ray) -> (f32, f32) {
-        self.0[slot].compute_barycentric(ray).into()
+        self.0[slot].surface(ray)
     }
 
     fn bytes(&self) -> usize {

@@ -1,6 +1,6 @@
 //! The BVH2 and the CWBVH of the crate [obvhs](https://docs.rs/obvhs) behind `accel::Accel`.
 //!
-//! Triangles are tested by obvhs' own test, on its own 64-byte triangles, laid out in the order of
+//! Triangles are tested by obvhs' own test, on its own 64-byte triangles or its compressed ones, laid out in the order of
 //! the tree's leaves; boxes by the suite's test, where they lie. What obvhs does otherwise than the
 //! contract asks shows in the accuracy report and not here: the end of a ray's range is open, ties
 //! go to the object met first, and components of a direction below 1.2e-7 are clamped in its box

@@ -3,12 +3,13 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use accel::objects::Boxes;
-use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Need, Ray, Scene};
+use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Need, Ray, Scene};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::cwbvh::CwBvh;
+use obvhs::rt_triangle::{RtCompressedTriangle, RtTriangle};
 
-use crate::leaves::{BoxLeaves, Leaves, TriangleLeaves, bounds_of, triangles_of};
+use crate::leaves::{BoxLeaves, Leaves, Packed, TriangleLeaves, bounds_of, triangles_of};
 use crate::tree::Tree;
 
 /// Which of obvhs' trees.
@@ -79,12 +80,14 @@ pub struct ObvhsBuilder {
     pub variant: Variant,
     /// Time allowed for the build.
     pub preset: Preset,
+    /// Whether triangles are kept with their edges in 16-bit floats: in 24 bytes instead of 64, and not where the scene has them.
+    pub compressed: bool,
 }
 
 impl ObvhsBuilder {
     /// With the medium preset.
     pub const fn new(variant: Variant) -> Self {
-        Self { variant, preset: Preset::Medium }
+        Self { variant, preset: Preset::Medium, compressed: false }
     }
 }
 
@@ -94,7 +97,8 @@ impl Builder for ObvhsBuilder {
     }
 
     fn settings(&self) -> String {
-        format!("build={}", self.preset.id())
+        let triangles = if self.compressed { " triangles=compressed" } else { "" };
+        format!("build={}{triangles}", self.preset.id())
     }
 
     fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
@@ -104,8 +108,8 @@ impl Builder for ObvhsBuilder {
         let parameters = self.preset.parameters();
         // obvhs asserts where geometry is out of its reach; one failed cell must not end a run.
         let built = catch_unwind(AssertUnwindSafe(|| match self.variant {
-            Variant::Bvh2 => built::<Bvh2>(&scene.geometry, parameters),
-            Variant::CwBvh => built::<CwBvh>(&scene.geometry, parameters),
+            Variant::Bvh2 => self.built::<Bvh2>(&scene.geometry, parameters),
+            Variant::CwBvh => self.built::<CwBvh>(&scene.geometry, parameters),
         }));
         built.map_err(|panic| BuildError::Library {
             structure: self.variant.id().to_owned(),
@@ -120,21 +124,35 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
     text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("it panicked").to_owned()
 }
 
-fn built<'s, T: Tree + 's>(geometry: &'s Geometry, parameters: BvhBuildParams) -> Box<dyn Accel + 's> {
-    match geometry {
-        Geometry::Triangles(mesh) => {
-            let triangles = triangles_of(mesh);
-            let tree = T::of_triangles(&triangles, parameters);
-            let leaves = TriangleLeaves::new(&triangles, tree.order());
-            Box::new(Built { tree, leaves })
-        }
-        Geometry::Boxes(boxes) => {
-            let boxes = Boxes::new(boxes);
-            let tree = T::of_boxes(&bounds_of(&boxes), parameters);
-            let leaves = BoxLeaves::new(boxes, tree.order());
-            Box::new(Built { tree, leaves })
+impl ObvhsBuilder {
+    fn built<'s, T: Tree + 's>(
+        &self,
+        geometry: &'s Geometry,
+        parameters: BvhBuildParams,
+    ) -> Box<dyn Accel + 's> {
+        match geometry {
+            Geometry::Triangles(mesh) if self.compressed => {
+                over_triangles::<T, RtCompressedTriangle>(mesh, parameters)
+            }
+            Geometry::Triangles(mesh) => over_triangles::<T, RtTriangle>(mesh, parameters),
+            Geometry::Boxes(boxes) => {
+                let boxes = Boxes::new(boxes);
+                let tree = T::of_boxes(&bounds_of(&boxes), parameters);
+                let leaves = BoxLeaves::new(boxes, tree.order());
+                Box::new(Built { tree, leaves })
+            }
         }
     }
+}
+
+fn over_triangles<'s, T: Tree + 's, P: Packed + 's>(
+    mesh: &'s Mesh,
+    parameters: BvhBuildParams,
+) -> Box<dyn Accel + 's> {
+    let triangles = triangles_of::<P>(mesh);
+    let tree = T::of_triangles(&triangles, parameters);
+    let leaves = TriangleLeaves::<P>::new(&triangles, tree.order());
+    Box::new(Built { tree, leaves })
 }
 
 struct Built<T, L> {

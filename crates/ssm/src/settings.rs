@@ -21,7 +21,7 @@ pub struct Settings {
 impl Settings {
     /// Names and meanings, for help texts.
     pub const NAMES: [(&str, &str); 5] = [
-        ("kernel", "ray-triangle test"),
+        ("kernel", "ray-triangle test; quantised and box are lossy"),
         ("simd", "instruction set"),
         ("resolution", "slices per axis, as 64 or 64x32x16"),
         ("density", "cells for each object instead of a resolution"),

@@ -5,16 +5,20 @@
 //! (rasters). Both, and the scalar form, give the same bits.
 
 mod baldwin_weber;
+mod bounding_box;
 mod double;
 mod exact;
 mod moller_trumbore;
+mod quantised;
 mod watertight;
 mod wide;
 
 pub use baldwin_weber::BaldwinWeber;
+pub use bounding_box::BoundingBox;
 pub use double::Double;
 pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
+pub use quantised::Quantised;
 pub use watertight::Watertight;
 
 use crate::packet::{Bounds, Common, Lanes, Packet, Vec3Lanes};
@@ -36,6 +40,9 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// Whether geometry of extreme size is scaled by a power of two before the kernel sees it, since its products
     /// of coordinates would under- or overflow.
     const NORMALISED: bool = true;
+    /// Whether it sees corners rounded to 16 bits a coordinate, which are kept so and unpacked for a test. It then packs the nine
+    /// rows of corners and postpones nothing.
+    const QUANTISED: bool = false;
     /// What is computed once for a ray.
     type One: Copy + Send + Sync;
     /// What is computed once for `LANES` rays.
@@ -47,7 +54,7 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
         pack_corners(corners, group, lane);
     }
 
-    /// The corners packed in lane `lane`, or `None` where the rows don't hold them.
+    /// The corners packed in lane `lane`, or others with the same box; `None` where the rows don't hold them.
     #[inline(always)]
     fn corners(group: &[Row], lane: usize) -> Option<Corners> {
         let at = |row: usize| group[row].0[lane];
@@ -208,12 +215,28 @@ pub enum KernelId {
     Double,
     /// [`Exact`]
     Exact,
+    /// [`Quantised`]
+    Quantised,
+    /// [`BoundingBox`]
+    BoundingBox,
 }
 
 impl KernelId {
     /// All kernels there are.
-    pub const ALL: [Self; 5] =
-        [Self::MollerTrumbore, Self::BaldwinWeber, Self::Watertight, Self::Double, Self::Exact];
+    pub const ALL: [Self; 7] = [
+        Self::MollerTrumbore,
+        Self::BaldwinWeber,
+        Self::Watertight,
+        Self::Double,
+        Self::Exact,
+        Self::Quantised,
+        Self::BoundingBox,
+    ];
+
+    /// Whether it takes the scene for another one: made for what is cheaper still, and wrong by design.
+    pub const fn is_lossy(self) -> bool {
+        matches!(self, Self::Quantised | Self::BoundingBox)
+    }
 
     /// Name as used in settings and records.
     pub const fn id(self) -> &'static str {
@@ -223,6 +246,8 @@ impl KernelId {
             Self::Watertight => "watertight",
             Self::Double => "double",
             Self::Exact => "exact",
+            Self::Quantised => "quantised",
+            Self::BoundingBox => "box",
         }
     }
 
@@ -240,6 +265,8 @@ impl KernelId {
             Self::Watertight => with.kernel::<Watertight>(),
             Self::Double => with.kernel::<Double>(),
             Self::Exact => with.kernel::<Exact>(),
+            Self::Quantised => with.kernel::<Quantised>(),
+            Self::BoundingBox => with.kernel::<BoundingBox>(),
         }
     }
 }
@@ -279,7 +306,7 @@ pub(crate) fn load_corners<S: Simd>(s: S, group: &[Row], at: usize) -> [Vec3Lane
 }
 
 #[inline(always)]
-fn load3<S: Simd>(s: S, rows: &[Row], at: usize) -> Vec3Lanes<S> {
+pub(crate) fn load3<S: Simd>(s: S, rows: &[Row], at: usize) -> Vec3Lanes<S> {
     [s.load(&rows[0].0[at..]), s.load(&rows[1].0[at..]), s.load(&rows[2].0[at..])]
 }
 

@@ -4,7 +4,7 @@ use super::{lawful, pad_of};
 use crate::kernel::{Corners, store_rows, sub3};
 use crate::packet::{Common, Packet, Vec3Lanes};
 use crate::simd::{Row, Simd};
-use crate::{Aabb, Mesh, Ray, Vec3};
+use crate::{Aabb, Ray, Vec3};
 
 /// What the law of [`super::Objects`] needs to know of the whole mesh, and the scale at which
 /// kernels see it.
@@ -34,9 +34,8 @@ fn scale_for(largest: f32) -> f32 {
 
 impl Frame {
     /// `normalised` says whether kernels see the mesh near the size of 1.
-    pub(super) fn of(mesh: &Mesh, normalised: bool) -> Self {
-        let bounds = mesh.bounds();
-        let pad = pad_of(&bounds);
+    pub(super) fn of(bounds: &Aabb, normalised: bool) -> Self {
+        let pad = pad_of(bounds);
         if bounds.is_empty() {
             return Self { pad, center: Vec3::ZERO, near: 0.0, scale: 1.0 };
         }

@@ -3,6 +3,7 @@
 mod boxes;
 mod frame;
 mod ids;
+mod lattice;
 mod one_by_one;
 mod triangles;
 

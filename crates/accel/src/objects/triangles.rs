@@ -1,16 +1,17 @@
 //! Triangles as objects, with the kernel as a parameter.
 
+mod pack;
 mod packets;
 mod single;
 
 use super::frame::{Frame, LIMIT_ROWS, Limits};
 use super::ids::Ids;
-use super::{BLOCK, Blocks, EMPTY_SLOT, Objects};
+use super::lattice::{Lattice, ShortRows};
+use super::{Blocks, EMPTY_SLOT, Objects};
 use crate::kernel::{Corners, Kernel, load_corners};
 use crate::packet::{Common, NearestPacket, Packet, Vec3Lanes};
-use crate::simd::{ROW, Row, Simd, prefetch};
-use crate::{Aabb, Mesh, Nearest, Ray, Surface, filled};
-use rayon::prelude::*;
+use crate::simd::{ROW, Row, Simd};
+use crate::{Aabb, Mesh, Nearest, Ray, Surface};
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 
@@ -19,6 +20,8 @@ use std::marker::PhantomData;
 pub struct Triangles<'s, K> {
     mesh: &'s Mesh,
     frame: Frame,
+    /// For kernels that are [`Kernel::QUANTISED`].
+    lattice: Lattice,
     kernel: PhantomData<K>,
 }
 
@@ -41,13 +44,20 @@ pub struct TrianglePacket<S: Simd, P> {
 impl<'s, K: Kernel> Triangles<'s, K> {
     /// The objects of a scene of triangles.
     pub fn new(mesh: &'s Mesh) -> Self {
-        Self { mesh, frame: Frame::of(mesh, K::NORMALISED), kernel: PhantomData }
+        const { assert!(!K::QUANTISED || (K::ROWS == CORNER_ROWS && !K::POSTPONES)) };
+        let mut bounds = mesh.bounds();
+        let lattice = Lattice::over(&bounds);
+        if K::QUANTISED && !bounds.is_empty() {
+            bounds = Aabb { min: lattice.snap(bounds.min), max: lattice.snap(bounds.max) };
+        }
+        Self { mesh, frame: Frame::of(&bounds, K::NORMALISED), lattice, kernel: PhantomData }
     }
 
-    /// The corners of a triangle.
+    /// The corners of a triangle, where the kernel sees them.
     #[inline]
     fn corners(&self, id: u32) -> Corners {
-        self.mesh.corners(id as usize)
+        let corners = self.mesh.corners(id as usize);
+        if K::QUANTISED { corners.map(|corner| self.lattice.snap(corner)) } else { corners }
     }
 
     /// Whether `a` comes before `b`, both hit at the same reported t.
@@ -92,51 +102,70 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
     }
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
-        let mut rows = filled(Row([f32::NAN; ROW]), groups * K::ROWS);
-        let mesh = self.mesh;
-        let pack = |(group, rows): (usize, &mut [Row])| {
-            // Triangles lie anywhere in memory, their corners anywhere else: both are asked for some groups ahead.
-            let slots = |group: usize| order.iter().skip(group * ROW).take(ROW);
-            for id in slots(group + 2 * AHEAD) {
-                mesh.triangles.get(*id as usize).map(prefetch);
-            }
-            for id in slots(group + AHEAD) {
-                for corner in mesh.triangles.get(*id as usize).into_iter().flatten() {
-                    mesh.positions.get(*corner as usize).map(prefetch);
-                }
-            }
-            for (lane, id) in slots(group).enumerate().filter(|(_, id)| **id != EMPTY_SLOT) {
-                K::pack(&self.frame.corners(&self.corners(*id)), rows, lane);
-            }
-        };
-        rows.par_chunks_exact_mut(K::ROWS).enumerate().with_min_len(512).for_each(pack);
-        TriangleBlocks { triangles: *self, rows, ids: Ids::new(order) }
+        pack::blocks(self, order)
     }
 }
-
-/// Groups by which memory is asked for before it is needed; twice as many for what says where.
-const AHEAD: usize = 2;
 
 /// Triangles packed as rows of 16: four groups to a block.
 #[derive(Clone, Debug)]
 pub struct TriangleBlocks<'s, K> {
     triangles: Triangles<'s, K>,
+    /// What the kernel packs, unless it is [`Kernel::QUANTISED`].
     rows: Vec<Row>,
+    /// The corners of those that are.
+    short: Vec<ShortRows>,
     ids: Ids,
 }
 
+/// Rows that hold the corners of triangles.
+const CORNER_ROWS: usize = 9;
+
+/// Room for the rows of a group that have to be unpacked.
+struct Room([Row; CORNER_ROWS]);
+
+impl Room {
+    const EMPTY: Self = Self([Row([0.0; ROW]); CORNER_ROWS]);
+}
+
 impl<K: Kernel> TriangleBlocks<'_, K> {
+    /// The rows of a slot's group as packed.
     #[inline(always)]
-    fn group(&self, slot: usize) -> &[Row] {
+    fn packed(&self, slot: usize) -> &[Row] {
         let first = slot / ROW * K::ROWS;
         &self.rows[first..first + K::ROWS]
     }
 
+    /// The rows of a slot's group, in which the lanes `LANES` by `LANES` with that of the slot are unpacked.
+    #[inline(always)]
+    fn group<'a, S: Simd>(&'a self, s: S, slot: usize, room: &'a mut Room) -> &'a [Row] {
+        if K::QUANTISED {
+            self.unpack(s, slot, slot % ROW / S::LANES * S::LANES, &mut room.0);
+            return &room.0;
+        }
+        self.packed(slot)
+    }
+
+    /// Unpacks `LANES` triangles of a slot's group.
+    #[inline(always)]
+    fn unpack<S: Simd>(&self, s: S, slot: usize, at: usize, rows: &mut [Row]) {
+        let Triangles { lattice, frame, .. } = &self.triangles;
+        lattice.unpack(s, &self.short[slot / ROW], at, frame.scale, rows);
+    }
+
+    /// The corners of the triangle in a slot, or others with the same box.
     #[inline(always)]
     fn corners(&self, group: &[Row], slot: usize) -> Corners {
         let packed = if self.rows_hold_corners() { K::corners(group, slot % ROW) } else { None };
         packed.unwrap_or_else(|| self.triangles.corners(self.ids.get(slot)))
+    }
+
+    /// [`TriangleBlocks::corners`] for one that isn't unpacked.
+    #[inline(always)]
+    fn corners_of(&self, slot: usize) -> Corners {
+        if K::QUANTISED {
+            return self.triangles.corners(self.ids.get(slot));
+        }
+        self.corners(self.packed(slot), slot)
     }
 
     /// Whether the corners in the rows, if any, are those of the mesh.
@@ -145,14 +174,14 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         self.triangles.frame.scale == 1.0
     }
 
-    /// The corners of the triangles in `LANES` slots, where the rows don't hold them.
+    /// The corners of the triangles in `LANES` slots, where the rows don't hold all nine.
     #[inline(always)]
     fn gather<S: Simd>(&self, s: S, first: usize) -> [Vec3Lanes<S>; 3] {
         let mut rows = [[[f32::NAN; ROW]; 3]; 3];
         for lane in 0..S::LANES {
             let object = if first + lane < self.ids.len() { self.ids.get(first + lane) } else { EMPTY_SLOT };
             if object != EMPTY_SLOT {
-                for (corner, rows) in self.triangles.corners(object).iter().zip(&mut rows) {
+                for (corner, rows) in self.corners_of(first + lane).iter().zip(&mut rows) {
                     (rows[0][lane], rows[1][lane], rows[2][lane]) = (corner.x, corner.y, corner.z);
                 }
             }
@@ -166,7 +195,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     type Many<S: Simd> = TrianglePacket<S, K::Many<S>>;
 
     fn bytes(&self) -> usize {
-        crate::vec_bytes(&self.rows) + self.ids.bytes()
+        crate::vec_bytes(&self.rows) + crate::vec_bytes(&self.short) + self.ids.bytes()
     }
 
     #[inline]
@@ -225,7 +254,8 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
-        let group = self.group(slot);
+        let mut room = Room::EMPTY;
+        let group = self.group(s, slot, &mut room);
         if K::POSTPONES {
             let bounds = K::bounds(s, &rays.prepared, group, slot % ROW, best.t);
             if s.bits(bounds.open) != 0 {
@@ -240,22 +270,27 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         }
     }
 
-    const PREPARED_ROWS: usize = K::PREPARED_ROWS + if K::POSTPONES { 0 } else { LIMIT_ROWS };
+    const PREPARED_ROWS: usize = K::PREPARED_ROWS
+        + if K::POSTPONES { 0 } else { LIMIT_ROWS }
+        + if K::QUANTISED { CORNER_ROWS } else { 0 };
 
     #[inline(always)]
     fn prepare<S: Simd>(&self, s: S, first: usize, common: &Common, rows: &mut [Row]) {
-        let group = self.group(first);
         let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at_mut(K::PREPARED_ROWS);
+        let (limits, unpacked) = limits.split_at_mut(if K::POSTPONES { 0 } else { LIMIT_ROWS });
         for at in (0..ROW).step_by(S::LANES) {
+            let group = if K::QUANTISED {
+                self.unpack(s, first, at, unpacked);
+                &*unpacked
+            } else {
+                self.packed(first)
+            };
             K::prepare(s, &self.triangles.frame.common(common), group, at, rows);
             if K::POSTPONES {
                 continue;
             }
-            let corners = if self.rows_hold_corners() && K::corners(group, 0).is_some() {
-                load_corners(s, group, at)
-            } else {
-                self.gather(s, first + at)
-            };
+            let held = K::ROWS >= CORNER_ROWS && self.rows_hold_corners() && K::corners(group, 0).is_some();
+            let corners = if held { load_corners(s, group, at) } else { self.gather(s, first + at) };
             Limits::store(s, &self.triangles.frame, corners, limits, at);
         }
     }
@@ -270,9 +305,9 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         rays: &Self::Many<S>,
         best: &mut NearestPacket<S>,
     ) {
-        let group = self.group(slot);
         let lane = slot % ROW;
         let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at(K::PREPARED_ROWS);
+        let group = if K::QUANTISED { &limits[LIMIT_ROWS..] } else { self.packed(slot) };
         let common = &self.triangles.frame.common(common);
         if K::POSTPONES {
             let bounds = K::bounds_prepared(s, &rays.prepared, common, group, rows, lane, best.t);

@@ -50,7 +50,9 @@ fn rays(count: usize) -> RaySet {
 }
 
 fn all_builders() -> impl Iterator<Item = ObvhsBuilder> {
-    Variant::ALL.into_iter().flat_map(|variant| Preset::ALL.map(|preset| ObvhsBuilder { variant, preset }))
+    Variant::ALL
+        .into_iter()
+        .flat_map(|variant| Preset::ALL.map(|preset| ObvhsBuilder { preset, ..ObvhsBuilder::new(variant) }))
 }
 
 fn hits_of(builder: &dyn Builder, scene: &Scene, rays: &RaySet) -> (Vec<Option<Hit>>, Vec<bool>) {
@@ -126,6 +128,25 @@ fn footprints_hold_nodes_indices_and_triangles() {
         assert_eq!(bytes("indices"), 4_000, "{variant:?}");
         assert_eq!(bytes("nodes") % if variant == Variant::Bvh2 { 48 } else { 80 }, 0);
         assert!(bytes("nodes") > 5_000, "{variant:?}");
+    }
+}
+
+/// Compressed triangles are others than the scene's, but not by much, and take 24 bytes.
+#[test]
+fn compressed_triangles_are_nearly_the_scene() {
+    let (scene, rays) = (triangles(600, 0.1), rays(3000));
+    for variant in Variant::ALL {
+        let full = ObvhsBuilder::new(variant);
+        let compressed = ObvhsBuilder { compressed: true, ..full };
+        assert_eq!(compressed.settings(), "build=medium triangles=compressed");
+        let [(wanted, _), (hits, occluded)] = [full, compressed].map(|b| hits_of(&b, &scene, &rays));
+        assert!(hits.iter().zip(&occluded).all(|(hit, occluded)| hit.is_some() == *occluded));
+        let object = |hit: &Option<Hit>| hit.map(|hit| hit.object);
+        let others = hits.iter().zip(&wanted).filter(|(a, b)| object(a) != object(b)).count();
+        assert!(others * 100 <= rays.len(), "{others} differ");
+        assert!(hits.iter().zip(&wanted).any(|(a, b)| a != b), "something is lost");
+        let footprint = compressed.build(&scene, &Need::GENERAL).unwrap().footprint();
+        assert!(footprint.parts.iter().any(|part| part.name == "objects" && part.bytes == 24 * 600));
     }
 }
 

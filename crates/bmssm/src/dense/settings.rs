@@ -49,7 +49,7 @@ impl Default for Settings {
 impl Settings {
     /// Names and meanings, for help texts.
     pub const NAMES: [(&str, &str); 6] = [
-        ("kernel", "ray-triangle test"),
+        ("kernel", "ray-triangle test; quantised and box are lossy"),
         ("simd", "instruction set"),
         ("resolution", "slices per axis: auto, 64, or 64x32x16"),
         ("loop", "words (64 bits, find-first-set) or appendix (32 bits, bit by bit)"),

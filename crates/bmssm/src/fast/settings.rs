@@ -37,7 +37,7 @@ impl Default for Settings {
 impl Settings {
     /// Names and meanings, for help texts.
     pub const NAMES: [(&str, &str); 7] = [
-        ("kernel", "ray-triangle test"),
+        ("kernel", "ray-triangle test; quantised and box are lossy"),
         ("simd", "instruction set"),
         (
             "stretch",

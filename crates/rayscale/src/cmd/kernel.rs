@@ -10,7 +10,7 @@ use clap::Args;
 #[derive(Clone, Debug, Default, Args)]
 pub struct KernelOptions {
     /// The ray-triangle test of the suite's own structures: moller-trumbore, baldwin-weber, watertight, double or
-    /// exact; or auto: for each scene the cheapest that keeps --max-error on its rays
+    /// exact; quantised or box, which are lossy; or auto: for each scene the cheapest of the others that keeps --max-error on its rays
     #[arg(long, value_name = "ID")]
     pub kernel: Option<String>,
     /// With the kernel auto: wrong answers that may be given in a million rays, missed, invented or of another object; 1

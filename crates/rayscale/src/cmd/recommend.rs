@@ -82,7 +82,8 @@ const FEW_OBJECTS: usize = 2000;
 const JUDGED: usize = 1 << 16;
 
 /// Kernels that are tried where accuracy counts, the default one first.
-const KERNELS: [KernelId; 3] = [KernelId::MollerTrumbore, KernelId::Watertight, KernelId::Exact];
+const KERNELS: [KernelId; 4] =
+    [KernelId::MollerTrumbore, KernelId::Watertight, KernelId::Exact, KernelId::Quantised];
 
 impl Verb for Recommend {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {

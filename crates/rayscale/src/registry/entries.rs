@@ -28,7 +28,14 @@ macro_rules! set {
 
 fn obvhs(tree: Tree, settings: &Settings) -> Result<Box<dyn Builder>, RegistryError> {
     let preset = settings.read("preset", "fastest, medium or very-slow", Preset::from_id)?;
-    Ok(Box::new(ObvhsBuilder { preset: preset.unwrap_or_default(), ..ObvhsBuilder::new(tree) }))
+    let compressed = settings.read("triangles", "full or compressed", |id| {
+        ["full", "compressed"].iter().position(|known| *known == id).map(|place| place == 1)
+    })?;
+    Ok(Box::new(ObvhsBuilder {
+        preset: preset.unwrap_or_default(),
+        compressed: compressed.unwrap_or(false),
+        ..ObvhsBuilder::new(tree)
+    }))
 }
 
 const OBVHS: Entry = Entry {
@@ -36,9 +43,12 @@ const OBVHS: Entry = Entry {
     description: "obvhs' binary BVH",
     source: "obvhs",
     version: obvhs_version,
-    settings: &[("preset", "time for the build: fastest, medium or very-slow")],
+    settings: &[
+        ("preset", "time for the build: fastest, medium or very-slow"),
+        ("triangles", "full, or compressed: edges in 16-bit floats, which is lossy"),
+    ],
     traits: Traits::FOREIGN,
-    variants: &["preset=fastest", "preset=very-slow"],
+    variants: &["preset=fastest", "preset=very-slow", "triangles=compressed"],
     make: |s| obvhs(Tree::Bvh2, s),
 };
 
@@ -94,7 +104,12 @@ static ALL: &[Entry] = &[
         version: own,
         settings: &[KERNEL, SIMD],
         traits: Traits { default: false, linear: true, ..Traits::OWN },
-        variants: &["simd=portable", "kernel=watertight"],
+        variants: &[
+            "simd=portable",
+            "kernel=watertight",
+            "kernel=quantised,simd=portable",
+            "kernel=box,simd=portable",
+        ],
         make: |s| Ok(Box::new(Brute { kernel: s.kernel()?, simd: s.simd()? })),
     },
     Entry {
@@ -141,7 +156,14 @@ static ALL: &[Entry] = &[
         version: own,
         settings: &bmssm::fast::Settings::NAMES,
         traits: Traits { by_need: true, ..Traits::OWN },
-        variants: &["stretch=256", "simd=portable", "kernel=watertight", "tile=2,depth_bits=0,apart=1"],
+        variants: &[
+            "stretch=256",
+            "simd=portable",
+            "kernel=watertight",
+            "tile=2,depth_bits=0,apart=1",
+            "kernel=quantised",
+            "kernel=box",
+        ],
         make: set!(Bmssm),
     },
     Entry {
@@ -169,6 +191,8 @@ static ALL: &[Entry] = &[
             "divide=off",
             "density=0.05,divide=0.5",
             "kernel=watertight",
+            "kernel=quantised",
+            "kernel=box",
         ],
         make: set!(Ssm),
     },

@@ -48,6 +48,9 @@ impl ChosenKernel {
     pub(super) fn reason(&self) -> &str {
         match self {
             Self::Decided { reason, .. } => reason,
+            Self::Given(kernel) if kernel.is_lossy() => {
+                "lossy, as asked for: it takes the scene for another one"
+            }
             _ => "",
         }
     }

@@ -100,7 +100,7 @@ impl Choice {
         self.kernel.name()
     }
 
-    /// Why this kernel was chosen; empty where the user did.
+    /// Why this kernel was chosen; empty where the user did, unless it is lossy.
     pub fn reason(&self) -> &str {
         self.kernel.reason()
     }

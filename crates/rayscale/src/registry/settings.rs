@@ -10,7 +10,7 @@ use std::str::FromStr;
 pub type Setting = (&'static str, &'static str);
 
 /// The ray-triangle test; see [`Settings::kernel`].
-pub const KERNEL: Setting = ("kernel", "ray-triangle test");
+pub const KERNEL: Setting = ("kernel", "ray-triangle test; quantised and box are lossy");
 /// The instruction set; see [`Settings::simd`].
 pub const SIMD: Setting = ("simd", "instruction set");
 

@@ -8,7 +8,7 @@ use std::fmt::Write;
 const COLUMNS: usize = 3;
 const PANEL: (f64, f64) = (330.0, 240.0);
 const MARGIN: f64 = 42.0;
-const LEGEND: f64 = 76.0;
+const LEGEND: f64 = 90.0;
 /// Room on the right for half of a figure.
 const EDGE: f64 = 10.0;
 
@@ -16,12 +16,14 @@ const EDGE: f64 = 10.0;
 const NONE: f64 = 0.3;
 
 /// Kernels by the shape of their points.
-const SHAPES: [(&str, &str); 6] = [
+const SHAPES: [(&str, &str); 8] = [
     ("moller-trumbore", "M-4,0A4,4 0 1 0 4,0A4,4 0 1 0 -4,0Z"),
     ("baldwin-weber", "M-3.5,-3.5H3.5V3.5H-3.5Z"),
     ("watertight", "M0,-4.5L4.5,3.5H-4.5Z"),
     ("double", "M0,-5L4.5,0L0,5L-4.5,0Z"),
     ("exact", "M0,-6L1.6,-2L6,-1.6L2.6,1.2L3.8,5.4L0,3L-3.8,5.4L-2.6,1.2L-6,-1.6L-1.6,-2Z"),
+    ("quantised", "M-1.5,-5H1.5V-1.5H5V1.5H1.5V5H-1.5V1.5H-5V-1.5H-1.5Z"),
+    ("box", "M-5,-2.5H5V2.5H-5Z"),
     ("own", "M-4,-4L0,-1.5L4,-4L1.5,0L4,4L0,1.5L-4,4L-1.5,0Z"),
 ];
 
@@ -53,7 +55,7 @@ pub fn svg(trade: &Trade) -> String {
         );
     }
     for (i, (kernel, _)) in SHAPES.iter().enumerate() {
-        let (x, y) = (20.0 + 160.0 * i as f64, LEGEND - 28.0);
+        let (x, y) = (20.0 + 160.0 * (i % 6) as f64, LEGEND - 42.0 + 14.0 * (i / 6) as f64);
         point(&mut out, (x, y - 3.0), kernel, "#333", false, "");
         let name = if *kernel == "own" { "a foreign structure's own" } else { kernel };
         let _ = writeln!(out, "<text x=\"{}\" y=\"{y}\">{name}</text>", x + 8.0);

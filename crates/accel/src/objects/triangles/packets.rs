@@ -28,7 +28,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         let plain = s.bits(s.and(rays.near, limits.hold(s, &rays.rays, lanes.t)));
         let mut open = hits & !plain;
         if open != 0 {
-            let corners = self.corners(self.group(slot), slot);
+            let corners = self.corners_of(slot);
             let mut lawful = hits & plain;
             let rows = lanes.rows(s);
             while open != 0 {
@@ -104,9 +104,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         best: &mut NearestPacket<S>,
     ) {
         self.settle_lanes(s, rays, open, best);
-        let lanes = K::decide(s, &rays.prepared, self.group(slot), slot % ROW, open, best.t);
+        let lanes = K::decide(s, &rays.prepared, self.packed(slot), slot % ROW, open, best.t);
         if s.bits(lanes.hit) != 0 {
-            let limits = Limits::of(&self.triangles.frame, &self.corners(self.group(slot), slot));
+            let limits = Limits::of(&self.triangles.frame, &self.corners_of(slot));
             self.offer(s, slot, rays, &limits, lanes, best);
         }
     }
@@ -133,7 +133,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             let lane = left.trailing_zeros() as usize % ROW;
             left &= left - 1;
             let slot = slots[lane] as usize;
-            for (to, from) in group.iter_mut().zip(self.group(slot)) {
+            for (to, from) in group.iter_mut().zip(self.packed(slot)) {
                 to.0[lane] = from.0[slot % ROW];
             }
             slots[lane] = self.object(slot);

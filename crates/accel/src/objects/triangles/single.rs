@@ -1,8 +1,8 @@
 //! One ray against triangles in lanes.
 
-use super::{Kernel, TriangleBlocks, TriangleRay};
+use super::{Kernel, Room, TriangleBlocks, TriangleRay};
 use crate::objects::{BLOCK, Blocks};
-use crate::simd::{ROW, Scalar, Simd};
+use crate::simd::{ROW, Row, Scalar, Simd};
 use crate::{Nearest, Surface};
 
 /// The next triangles of a block to be tested at once.
@@ -46,8 +46,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         mut t_max: f32,
         mut found: impl FnMut(u32, Surface) -> Option<f32>,
     ) {
+        let mut room = Room::EMPTY;
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
-            let group = self.group(first);
+            let group = self.group(s, first, &mut room);
             let lanes = K::triangles(s, &ray.prepared, group, first % ROW, wanted, t_max);
             let mut hits = s.bits(lanes.hit) & wanted;
             if hits == 0 {
@@ -56,7 +57,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             let rows = lanes.rows(s);
             while let Some(lane) = next_lane(&mut hits) {
                 let surface = rows.surface(lane);
-                if self.is_lawful(first + lane, ray, surface) {
+                if self.is_lawful(group, first + lane, ray, surface) {
                     match found(self.ids.get(first + lane), surface) {
                         Some(limit) => t_max = limit,
                         None => return,
@@ -67,8 +68,8 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn is_lawful(&self, slot: usize, ray: &TriangleRay<K::One>, surface: Surface) -> bool {
-        let corners = self.corners(self.group(slot), slot);
+    fn is_lawful(&self, group: &[Row], slot: usize, ray: &TriangleRay<K::One>, surface: Surface) -> bool {
+        let corners = self.corners(group, slot);
         self.triangles.frame.lawful(&corners, &ray.ray, ray.near, surface.t)
     }
 
@@ -94,7 +95,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         best: &mut Nearest,
     ) {
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
-            let group = self.group(first);
+            let group = self.packed(first);
             let bounds = K::triangles_bounds(s, &ray.prepared, group, first % ROW, best.t);
             let mut open = s.bits(bounds.open) & wanted;
             if open == 0 {
@@ -127,9 +128,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         if !before {
             self.settle_one(ray, best);
         }
-        let lanes = K::triangles_decided(Scalar, &ray.prepared, self.group(slot), slot % ROW, 1, best.t);
+        let lanes = K::triangles_decided(Scalar, &ray.prepared, self.packed(slot), slot % ROW, 1, best.t);
         let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
-        if lanes.hit && self.is_lawful(slot, ray, surface) {
+        if lanes.hit && self.is_lawful(self.packed(slot), slot, ray, surface) {
             self.offer_one(ray, self.ids.get(slot), surface, best);
         }
     }
@@ -139,7 +140,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     pub(super) fn settle_one(&self, ray: &TriangleRay<K::One>, best: &mut Nearest) {
         if best.is_postponed() {
             let slot = best.object as usize;
-            let group = self.group(slot);
+            let group = self.packed(slot);
             let lanes = K::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, ray.ray.t_max);
             debug_assert!(lanes.hit, "a sure hit");
             *best = Nearest { t: lanes.t, object: self.object(slot), u: lanes.u, v: lanes.v };
@@ -157,7 +158,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         t_max: f32,
     ) -> bool {
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
-            let bounds = K::triangles_bounds(s, &ray.prepared, self.group(first), first % ROW, t_max);
+            let bounds = K::triangles_bounds(s, &ray.prepared, self.packed(first), first % ROW, t_max);
             let mut open = s.bits(bounds.open) & wanted;
             if open == 0 {
                 continue;
@@ -168,10 +169,10 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             }
             while let Some(lane) = next_lane(&mut open) {
                 let slot = first + lane;
-                let (group, at) = (self.group(slot), slot % ROW);
+                let (group, at) = (self.packed(slot), slot % ROW);
                 let lanes = K::triangles_decided(Scalar, &ray.prepared, group, at, 1, t_max);
                 let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
-                if lanes.hit && self.is_lawful(slot, ray, surface) {
+                if lanes.hit && self.is_lawful(self.packed(slot), slot, ray, surface) {
                     return true;
                 }
             }
