@@ -36,7 +36,7 @@ fn open(browser: &Path, folder: &Folder, page: &Path) -> (String, String) {
         "--disable-dev-shm-usage",
         "--enable-logging=stderr",
         "--virtual-time-budget=30000",
-        "--timeout=60000",
+        "--timeout=300000",
         "--dump-dom",
     ]);
     command.arg(format!("--user-data-dir={}", folder.path("profile").display()));
