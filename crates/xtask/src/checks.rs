@@ -9,7 +9,7 @@ use crate::shell::{cargo, output};
 use crate::tally::Tally;
 
 /// What must build and pass on a machine without Embree or any C++.
-const CORE: [&str; 3] = ["rayscale-accel", "bmssm", "rayscale-ssm"];
+pub const CORE: [&str; 3] = ["rayscale-accel", "bmssm", "rayscale-ssm"];
 
 /// The package that links with Embree.
 const ADAPTER: &str = "rayscale-adapter-embree";
@@ -79,7 +79,7 @@ fn succeed(command: &mut Command) -> Result<(), String> {
 }
 
 /// Runs `cargo test`, showing its output and counting its results.
-fn tests(command: &mut Command, tally: &mut Tally) -> Result<(), String> {
+pub fn tests(command: &mut Command, tally: &mut Tally) -> Result<(), String> {
     let mut child = command
         .arg("--no-fail-fast")
         .stdout(Stdio::piped())

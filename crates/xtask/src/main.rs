@@ -4,9 +4,11 @@
 //! cargo xtask setup             find or install Embree 4, fetch the real meshes
 //! cargo xtask compare [ARGS]    set up, then `rayscale compare ARGS`
 //! cargo xtask test              set up, then every check of the workspace
+//! cargo xtask aarch64           the structures' tests with NEON, emulated if need be
 //! ```
 #![forbid(unsafe_code)]
 
+mod aarch64;
 mod checks;
 mod compare;
 mod embree;
@@ -26,6 +28,7 @@ usage: cargo xtask <command>
   setup             find Embree 4 or install it; fetch the real meshes
   compare [ARGS]    set up, build, then run `rayscale compare ARGS`
   test              set up, then formatting, lints, tests, documentation
+  aarch64           the tests of accel, bmssm and ssm for aarch64, emulated on other processors
 
 Exit codes: 0 done, 1 a step failed, 2 bad usage.";
 
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
             Ok(ready) => checks::run(&places, &ready),
             Err(why) => fail(&format!("set-up failed: {why}")),
         },
+        ("aarch64", true) => aarch64::run(&places),
         ("help" | "--help" | "-h", _) => {
             println!("{USAGE}");
             ExitCode::SUCCESS

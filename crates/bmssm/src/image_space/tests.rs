@@ -43,6 +43,14 @@ fn perspective_ranges_divide_by_depth() {
 }
 
 #[test]
+fn bounds_of_t_are_never_negative() {
+    let raster = Raster { forward: Vec3::new(-5.0, -4.0, 1e4), ..perspective() };
+    let least = f32::from_bits(1);
+    assert_eq!(seen(&raster, [0.0, 0.0, least], [0.0, 0.0, 2.0 * least]).near.to_bits(), 0);
+    assert_eq!(seen(&parallel(), [0.0; 3], [0.0, 0.0, least]).near.to_bits(), 0);
+}
+
+#[test]
 fn what_lies_behind_the_eye_is_seen_by_no_ray() {
     assert!(seen(&perspective(), [-1.0, -1.0, -9.0], [1.0, 1.0, -8.0]).is_empty());
 }

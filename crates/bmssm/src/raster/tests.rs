@@ -1,6 +1,7 @@
 use super::*;
 use crate::fast;
 use accel::baseline::Brute;
+use accel::simd::{Simd, Task};
 use accel::{
     Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Projection, RaySet, Scene, Vec3, View, WithObjects,
 };
@@ -225,16 +226,26 @@ fn threads_make_no_difference() {
 
 #[test]
 fn only_what_can_be_seen_is_stored_and_counted() {
-    struct Seen(Raster);
+    struct Lanes;
+    impl Task for Lanes {
+        type Out = usize;
+        fn run<S: Simd>(self, _: S) -> usize {
+            S::LANES
+        }
+    }
+    struct Seen(Raster, Level);
     impl<'s> WithObjects<'s> for Seen {
         type Out = ();
         fn objects<O: Objects + 's>(self, objects: O) {
-            let maps = RasterMaps::build(objects, &self.0, Settings::default());
+            let Self(raster, simd) = self;
+            let maps = RasterMaps::build(objects, &raster, Settings { simd, ..Settings::default() });
             let covered: u32 = maps.coverage().iter().map(|w| w.count_ones()).sum();
             assert_eq!(covered as usize, maps.shown());
             assert!(maps.shown() < objects.len() / 2, "{}", maps.plan());
             let counters = maps.count();
-            assert!(counters.tests > 0 && counters.tests <= counters.candidates);
+            // The 16 pixels of a cell are tested so many at a time.
+            let times = (16 / simd.run(Lanes)) as u64;
+            assert!(counters.tests > 0 && counters.tests <= times * counters.candidates, "{simd:?}");
             assert!(counters.cells > 0 && counters.words > counters.cells && counters.blocks > 0);
             let footprint = RasterMaps::footprint(&maps);
             let copy = footprint.bytes(accel::Group::GeometryCopy);
@@ -242,5 +253,7 @@ fn only_what_can_be_seen_is_stored_and_counted() {
         }
     }
     let raster = look(Projection::Parallel, [64, 64], Vec3::new(1.5, -2.2, 1.4), Vec3::ZERO, 0.4);
-    soup(3000, 0.05, 1.0, Vec3::ZERO).with_objects(KernelId::MollerTrumbore, Seen(raster));
+    for simd in Level::here() {
+        soup(3000, 0.05, 1.0, Vec3::ZERO).with_objects(KernelId::MollerTrumbore, Seen(raster, simd));
+    }
 }
