@@ -201,6 +201,10 @@ fn put(record: &mut Record, cell: Cell) {
 
 /// A record of nothing yet.
 pub fn begin(session: &Session, choices: &[Choice]) -> Record {
+    // Before versions are asked for, as a library may start its threads for that.
+    if session.options.threads == 1 {
+        registry::keep_to_one_thread();
+    }
     let structure = |choice: &Choice| Structure {
         id: choice.spec.to_string(),
         version: (choice.entry.version)(),
