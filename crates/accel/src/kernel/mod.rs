@@ -57,8 +57,7 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// The corners packed in lane `lane`, or others with the same box; `None` where the rows don't hold them.
     #[inline(always)]
     fn corners(group: &[Row], lane: usize) -> Option<Corners> {
-        let at = |row: usize| group[row].0[lane];
-        Some([0, 3, 6].map(|row| Vec3::new(at(row), at(row + 1), at(row + 2))))
+        Some(unpack_corners(group, lane))
     }
 
     /// Prepares one ray.
@@ -293,6 +292,14 @@ pub(crate) fn pack_corners(corners: &Corners, group: &mut [Row], lane: usize) {
             row.0[lane] = corner[axis];
         }
     }
+}
+
+/// The corners that [`pack_corners`] wrote to lane `lane`.
+#[inline(always)]
+pub(crate) fn unpack_corners(group: &[Row], lane: usize) -> Corners {
+    let rows = &group[..9];
+    let corner = |k: usize| Vec3::new(rows[k].0[lane], rows[k + 1].0[lane], rows[k + 2].0[lane]);
+    [corner(0), corner(3), corner(6)]
 }
 
 // Plain functions and no closures: only what is `#[inline(always)]` is sure to be compiled

@@ -3,7 +3,7 @@
 //! [`crate::simd::Simd`] has no lanes of `f64`. Plain loops over rows in memory serve: compiled for
 //! the instruction set of the task, they become vectors.
 
-use super::Corners;
+use super::{Corners, unpack_corners};
 use crate::Ray;
 use crate::Vec3;
 use crate::packet::Packet;
@@ -120,9 +120,7 @@ impl<'a> OneTriangle<'a> {
     /// The triangle in lane `lane` of a group.
     #[inline(always)]
     pub(super) fn new(rays: &'a RayRows, group: &[Row], lane: usize) -> Self {
-        let g = &group[..9];
-        let corner = |k: usize| Vec3::new(g[k].0[lane], g[k + 1].0[lane], g[k + 2].0[lane]);
-        Self { rays, corners: [corner(0), corner(3), corner(6)] }
+        Self { rays, corners: unpack_corners(group, lane) }
     }
 }
 
@@ -140,9 +138,7 @@ impl Pairs for OneEach<'_> {
     }
     #[inline(always)]
     fn corners(&self, lane: usize) -> Corners {
-        let g = self.group;
-        let corner = |k: usize| Vec3::new(g[k].0[lane], g[k + 1].0[lane], g[k + 2].0[lane]);
-        [corner(0), corner(3), corner(6)]
+        unpack_corners(self.group, lane)
     }
 }
 

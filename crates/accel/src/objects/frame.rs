@@ -63,12 +63,8 @@ impl Frame {
     /// rounded, lies in the box padded by half.
     #[inline]
     fn plainly_lawful(&self, corners: &Corners, ray: &Ray, t: f32) -> bool {
-        let [a, b, c] = *corners;
-        let half = Vec3::splat(self.pad * 0.5);
-        let position = (ray.origin - a) + ray.direction * t;
-        let (edge1, edge2) = (b - a, c - a);
-        let low = edge1.min(edge2).min(Vec3::ZERO) - half;
-        let high = edge1.max(edge2).max(Vec3::ZERO) + half;
+        let Limits { first, low, high } = Limits::of(self, corners);
+        let position = (ray.origin - first) + ray.direction * t;
         low.cmple(position).all() && position.cmple(high).all()
     }
 
@@ -112,9 +108,9 @@ impl Frame {
 /// Within what a hit's position relative to the first corner, rounded, keeps the law plainly.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
-    first: [f32; 3],
-    low: [f32; 3],
-    high: [f32; 3],
+    first: Vec3,
+    low: Vec3,
+    high: Vec3,
 }
 
 /// Rows that hold [`Limits`] of 16 triangles.
@@ -128,7 +124,7 @@ impl Limits {
         let (edge1, edge2) = (*b - *a, *c - *a);
         let low = edge1.min(edge2).min(Vec3::ZERO) - half;
         let high = edge1.max(edge2).max(Vec3::ZERO) + half;
-        Self { first: a.to_array(), low: low.to_array(), high: high.to_array() }
+        Self { first: *a, low, high }
     }
 
     /// Writes those of triangles in lanes to rows from lane `at` on.
@@ -157,7 +153,7 @@ impl Limits {
     #[inline(always)]
     pub(super) fn load(rows: &[Row], lane: usize) -> Self {
         let rows = &rows[..LIMIT_ROWS];
-        let at = |row: usize| [rows[row].0[lane], rows[row + 1].0[lane], rows[row + 2].0[lane]];
+        let at = |row: usize| Vec3::new(rows[row].0[lane], rows[row + 1].0[lane], rows[row + 2].0[lane]);
         Self { first: at(0), low: at(3), high: at(6) }
     }
 

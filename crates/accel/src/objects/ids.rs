@@ -13,14 +13,11 @@ pub(super) struct Ids {
 /// [`EMPTY_SLOT`] in three bytes.
 const EMPTY_SHORT: u32 = EMPTY_SLOT >> 8;
 
-const fn is_wide(id: u32) -> bool {
-    EMPTY_SHORT <= id && id < EMPTY_SLOT
-}
-
 impl Ids {
     pub(super) fn new(order: &[u32]) -> Self {
         const TASK: usize = 1 << 14;
-        let wide = order.par_chunks(TASK).any(|ids| ids.iter().any(|id| is_wide(*id)));
+        let wide =
+            order.par_chunks(TASK).any(|ids| ids.iter().any(|id| (EMPTY_SHORT..EMPTY_SLOT).contains(id)));
         let width = if wide { 4 } else { 3 };
         let mut bytes = vec![0; order.len() * width];
         bytes.par_chunks_mut(TASK * width).zip(order.par_chunks(TASK)).for_each(|(bytes, ids)| {

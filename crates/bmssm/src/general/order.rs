@@ -228,8 +228,7 @@ impl Task for Cut<'_, '_> {
                 }
             } else {
                 let scratch = &mut Scratch { items: &mut *scratch, marks: &mut *marks };
-                let middle = shape.divide(clusters, scratch, Left::Packed(BLOCK));
-                clusters.copy_from_slice(&scratch.items[..clusters.len()]);
+                let middle = Divide { shape, items: clusters, scratch, left: Left::Packed(BLOCK) }.run(s);
                 open.push((first + middle, end, false));
                 open.push((first, first + middle, false));
             }

@@ -46,9 +46,6 @@ impl Console {
     /// [`Error::Usage`] if the system does not give that many.
     pub fn in_pool<T: Send>(&self, otherwise: usize, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
         let threads = self.threads().unwrap_or(otherwise);
-        if threads == 1 {
-            crate::registry::keep_to_one_thread();
-        }
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|error| {
             Error::usage(format!("{threads} threads: {error}"), "choose a smaller number for --threads")

@@ -94,6 +94,9 @@ pub fn defaults() -> Vec<StructureSpec> {
 /// # Errors
 /// A scene that is unsound; scenes that are merely not on this machine are skipped.
 pub fn run(plan: &Plan, choices: &[Choice], mut tell: impl FnMut(&str)) -> Result<Trade, SceneError> {
+    if rayon::current_num_threads() == 1 {
+        registry::keep_to_one_thread();
+    }
     let mut trade = Trade {
         command: plan.command.clone(),
         suite: Suite::this(),

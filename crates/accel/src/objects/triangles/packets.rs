@@ -2,7 +2,7 @@
 
 #[cfg(doc)]
 use super::Frame;
-use super::{Kernel, Limits, TriangleBlocks, TrianglePacket};
+use super::{Kernel, Limits, TriangleBlocks, TrianglePacket, next_lane};
 use crate::Nearest;
 use crate::objects::Blocks;
 use crate::packet::{Bounds, Lanes, NearestPacket, Packet};
@@ -31,9 +31,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             let corners = self.corners_of(slot);
             let mut lawful = hits & plain;
             let rows = lanes.rows(s);
-            while open != 0 {
-                let lane = open.trailing_zeros() as usize;
-                open &= open - 1;
+            while let Some(lane) = next_lane(&mut open) {
                 if self.triangles.frame.lawful(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t)
                 {
                     lawful |= 1 << lane;
@@ -66,9 +64,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         let mut others = [Nearest::new(0.0); ROW];
         best.store(s, &mut others);
         let mut wins = 0;
-        while ties != 0 {
-            let lane = ties.trailing_zeros() as usize;
-            ties &= ties - 1;
+        while let Some(lane) = next_lane(&mut ties) {
             let wins_here = self.triangles.precedes(&rays.ray(s, lane), object, others[lane].object);
             wins |= u32::from(wins_here) << lane;
         }
@@ -129,9 +125,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         s.store_u(best.object, &mut slots);
         let mut group = [Row([0.0; ROW]); MOST_ROWS];
         let mut left = open;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize % ROW;
-            left &= left - 1;
+        while let Some(lane) = next_lane(&mut left) {
             let slot = slots[lane] as usize;
             for (to, from) in group.iter_mut().zip(self.packed(slot)) {
                 to.0[lane] = from.0[slot % ROW];

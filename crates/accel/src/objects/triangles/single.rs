@@ -1,6 +1,6 @@
 //! One ray against triangles in lanes.
 
-use super::{Kernel, Room, TriangleBlocks, TriangleRay};
+use super::{Kernel, Room, TriangleBlocks, TriangleRay, next_lane};
 use crate::objects::{BLOCK, Blocks};
 use crate::simd::{ROW, Row, Scalar, Simd};
 use crate::{Nearest, Surface};
@@ -24,14 +24,6 @@ fn next<S: Simd>(block: usize, mask: &mut u64) -> Option<Next> {
     let wanted = (*mask >> first & lanes_mask) as u32;
     *mask &= !(lanes_mask << first);
     Some(Next { slot: block * BLOCK + first, wanted })
-}
-
-/// The lowest bit as a lane, taken off.
-#[inline(always)]
-fn next_lane(bits: &mut u32) -> Option<usize> {
-    let lane = bits.trailing_zeros() as usize;
-    *bits &= bits.wrapping_sub(1);
-    (lane < ROW).then_some(lane)
 }
 
 impl<K: Kernel> TriangleBlocks<'_, K> {
@@ -128,11 +120,18 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         if !before {
             self.settle_one(ray, best);
         }
-        let lanes = K::triangles_decided(Scalar, &ray.prepared, self.packed(slot), slot % ROW, 1, best.t);
-        let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
-        if lanes.hit && self.is_lawful(self.packed(slot), slot, ray, surface) {
+        if let Some(surface) = self.decided(ray, slot, best.t) {
             self.offer_one(ray, self.ids.get(slot), surface, best);
         }
+    }
+
+    /// The lawful hit on the triangle in a slot.
+    #[inline(always)]
+    fn decided(&self, ray: &TriangleRay<K::One>, slot: usize, t_max: f32) -> Option<Surface> {
+        let group = self.packed(slot);
+        let lanes = K::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, t_max);
+        let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
+        (lanes.hit && self.is_lawful(group, slot, ray, surface)).then_some(surface)
     }
 
     /// Decides the hit that is postponed, if it is.
@@ -168,11 +167,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
                 return true;
             }
             while let Some(lane) = next_lane(&mut open) {
-                let slot = first + lane;
-                let (group, at) = (self.packed(slot), slot % ROW);
-                let lanes = K::triangles_decided(Scalar, &ray.prepared, group, at, 1, t_max);
-                let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
-                if lanes.hit && self.is_lawful(self.packed(slot), slot, ray, surface) {
+                if self.decided(ray, first + lane, t_max).is_some() {
                     return true;
                 }
             }
