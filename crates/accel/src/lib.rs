@@ -27,7 +27,7 @@ pub use aabb::Aabb;
 pub use footprint::{Footprint, Group, Part, vec_bytes};
 pub use glam::Vec3;
 pub use kernel::{Kernel, KernelId};
-pub use memory::{available_memory, filled};
+pub use memory::{available_memory, concatenated, filled};
 pub use objects::{Blocks, Objects};
 pub use ray::{Hit, Nearest, Ray, RayError, Surface};
 pub use rayset::{Projection, Raster, RaySet};

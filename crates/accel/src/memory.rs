@@ -9,6 +9,24 @@ pub fn filled<T: Clone + Send>(value: T, len: usize) -> Vec<T> {
     rayon::iter::repeat_n(value, len).with_min_len(TASK).collect()
 }
 
+/// The elements of all vectors in order, moved by all threads of the current pool.
+pub fn concatenated<T: Copy + Send + Sync>(parts: &[Vec<T>]) -> Vec<T> {
+    let Some(first) = parts.iter().find_map(|part| part.first()) else { return Vec::new() };
+    let len = parts.iter().map(Vec::len).sum();
+    if rayon::current_num_threads() == 1 || size_of::<T>() * len < WORTH_SHARING {
+        return parts.concat();
+    }
+    let mut all = filled(*first, len);
+    let mut rest = &mut all[..];
+    let rooms: Vec<_> =
+        parts.iter().map(|part| (part, rest.split_off_mut(..part.len()).expect("room for all"))).collect();
+    rooms.into_par_iter().for_each(|(part, room)| room.copy_from_slice(part));
+    all
+}
+
+/// Bytes from which on threads are asked to help moving them.
+const WORTH_SHARING: usize = 1 << 20;
+
 /// Taken where the system does not tell: 16 GiB.
 const UNKNOWN: u128 = 16 << 30;
 
@@ -29,6 +47,18 @@ fn available(meminfo: &str) -> Option<u128> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn vectors_are_joined_in_order_whatever_the_number_of_threads() {
+        for (part, parts) in [(0, 3), (5, 4), (70_000, 7)] {
+            let parts: Vec<Vec<u32>> = (0..parts).map(|i| (i * part..(i + 1) * part).collect()).collect();
+            let expected: Vec<u32> = parts.iter().flatten().copied().collect();
+            for threads in [1, 3] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                assert_eq!(pool.install(|| concatenated(&parts)), expected);
+            }
+        }
+    }
 
     #[test]
     fn the_line_is_read_in_bytes() {

@@ -7,7 +7,7 @@ use super::maps::BlockMaps;
 use super::split::{Divide, Left, Scratch, Shape};
 use accel::objects::{BLOCK, EMPTY_SLOT};
 use accel::simd::{Level, Simd, Task};
-use accel::{filled, morton};
+use accel::{concatenated, filled, morton};
 use rayon::prelude::*;
 
 /// The objects in order, block by block.
@@ -34,9 +34,10 @@ impl Order {
         drop(keys);
         let most = small_clusters.len().max(large_clusters.len());
         let (mut room, mut marks) = (vec![Item::EMPTY; most], vec![0; most]);
-        let mut scratch = Scratch { items: &mut room, marks: &mut marks };
-        let mut parts = split(shape, &mut small_clusters, &mut scratch, settings.simd);
-        parts.extend(split(shape, &mut large_clusters, &mut scratch, settings.simd));
+        let mut halve =
+            |clusters| split(shape, clusters, Scratch { items: &mut room, marks: &mut marks }, settings.simd);
+        let mut parts = halve(&mut small_clusters);
+        parts.extend(halve(&mut large_clusters));
         drop((room, marks));
         let blocks = |part: &Part| part.objects.div_ceil(BLOCK);
         let all = parts.iter().map(blocks).sum();
@@ -107,7 +108,7 @@ fn clusters(items: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
         clusters
     };
     let tasks: Vec<Vec<Item>> = (0..begins.len()).into_par_iter().map(of).collect();
-    tasks.concat()
+    concatenated(&tasks)
 }
 
 /// The lowest bit of codes that tells cells apart if clusters are to hold [`CLUSTER`] objects on average.
@@ -146,7 +147,7 @@ pub const PART: usize = 64 * BLOCK;
 /// From this many clusters on the two parts are split by two threads.
 const PARALLEL: usize = 1 << 12;
 
-fn split<'c>(shape: &Shape, clusters: &'c mut [Item], scratch: &mut Scratch, simd: Level) -> Vec<Part<'c>> {
+fn split<'c>(shape: &Shape, clusters: &'c mut [Item], mut scratch: Scratch, simd: Level) -> Vec<Part<'c>> {
     let objects = clusters.iter().map(|cluster| cluster.weight() as usize).sum();
     if objects <= PART || clusters.len() == 1 {
         if objects == 0 {
@@ -155,11 +156,10 @@ fn split<'c>(shape: &Shape, clusters: &'c mut [Item], scratch: &mut Scratch, sim
         return vec![Part { clusters, objects }];
     }
     let left = Left::Packed(BLOCK);
-    let at = simd.run(Divide { shape, items: &mut *clusters, scratch, left });
+    let at = simd.run(Divide { shape, items: &mut *clusters, scratch: &mut scratch, left });
     let parallel = clusters.len() >= PARALLEL;
     let (left, right) = clusters.split_at_mut(at);
-    let [mut left_scratch, mut right_scratch] = scratch.split_at(at);
-    let (left, right) = ((left, &mut left_scratch), (right, &mut right_scratch));
+    let (left, right) = ((left, scratch.take(at)), (right, scratch));
     let halve = |(clusters, scratch)| split(shape, clusters, scratch, simd);
     let (mut parts, rest) =
         if parallel { rayon::join(|| halve(left), || halve(right)) } else { (halve(left), halve(right)) };

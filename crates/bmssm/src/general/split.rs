@@ -44,11 +44,13 @@ pub struct Scratch<'a> {
 }
 
 impl Scratch<'_> {
-    /// That of the items before `at`, and that of the others.
-    pub fn split_at(&mut self, at: usize) -> [Scratch<'_>; 2] {
-        let (left, right) = self.items.split_at_mut(at);
-        let (left_marks, right_marks) = self.marks.split_at_mut(at);
-        [Scratch { items: left, marks: left_marks }, Scratch { items: right, marks: right_marks }]
+    /// That of so many items, which it has no more.
+    ///
+    /// # Panics
+    /// If it has less.
+    pub fn take(&mut self, items: usize) -> Self {
+        let marks = self.marks.split_off_mut(..items).expect("a mark for each");
+        Self { items: self.items.split_off_mut(..items).expect("room for all"), marks }
     }
 }
 

@@ -7,6 +7,7 @@ use super::item::{Extremes, Item};
 use super::maps::UnitBox;
 use super::split::{Divide, Left, Scratch, Shape};
 use accel::simd::{Level, ROW, Row};
+use rayon::prelude::*;
 
 /// Most children of a node.
 pub const WIDTH: usize = ROW;
@@ -42,6 +43,15 @@ impl Node {
         }
         self.children[lane] = what;
     }
+
+    /// Adds to the indices of children that are nodes. The root, 0, is nobody's child.
+    fn move_by(&mut self, places: u32) {
+        for child in &mut self.children {
+            if (1..Self::BLOCK).contains(child) {
+                *child += places;
+            }
+        }
+    }
 }
 
 /// A child in the making: consecutive items, each a block.
@@ -50,17 +60,55 @@ struct Part<'i> {
     bounds: UnitBox,
 }
 
+/// Blocks from which on the children of a node are trees of tasks of their own.
+const PARALLEL: usize = 1 << 10;
+
 /// The tree over blocks, given by their boxes and numbers; the root is the first node. Empty where there is no block.
 pub fn over(shape: &Shape, mut blocks: Vec<Item>, simd: Level) -> Vec<Node> {
-    let mut nodes = Vec::with_capacity(blocks.len().div_ceil(WIDTH / 2));
     if blocks.is_empty() {
-        return nodes;
+        return Vec::new();
     }
     let (mut items, mut marks) = (blocks.clone(), vec![0; blocks.len()]);
-    let mut scratch = Scratch { items: &mut items, marks: &mut marks };
-    nodes.push(Node::EMPTY);
+    let scratch = Scratch { items: &mut items, marks: &mut marks };
     let bounds = Extremes::of(&blocks).bounds();
-    let mut open = vec![(0, Part { items: &mut blocks, bounds })];
+    let mut nodes = grown(shape, Part { items: &mut blocks, bounds }, scratch, simd);
+    nodes.shrink_to_fit();
+    nodes
+}
+
+/// The tree over a part. Children are trees of their own where they are worth it, whatever the number of threads.
+fn grown(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> Vec<Node> {
+    if part.items.len() < PARALLEL {
+        return grown_alone(shape, part, scratch, simd);
+    }
+    let mut root = Node::EMPTY;
+    let children = children(shape, part, &mut scratch, simd);
+    let mut rest = scratch;
+    let mut tasks = Vec::with_capacity(WIDTH);
+    for (lane, part) in children.into_iter().enumerate() {
+        match *part.items {
+            [block] => root.set(lane, &part.bounds, Node::BLOCK | block.number()),
+            _ => tasks.push((lane, part.bounds, rest.take(part.items.len()), part)),
+        }
+    }
+    let grow = |(lane, bounds, room, part)| (lane, bounds, grown(shape, part, room, simd));
+    let trees: Vec<_> = tasks.into_par_iter().map(grow).collect();
+    let mut nodes = Vec::with_capacity(1 + trees.iter().map(|(.., tree)| tree.len()).sum::<usize>());
+    nodes.push(root);
+    for (lane, bounds, mut tree) in trees {
+        let first = nodes.len() as u32;
+        nodes[0].set(lane, &bounds, first);
+        tree.iter_mut().for_each(|node| node.move_by(first));
+        nodes.append(&mut tree);
+    }
+    nodes
+}
+
+/// The tree over a part, by one thread.
+fn grown_alone(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(part.items.len().div_ceil(WIDTH / 2));
+    nodes.push(Node::EMPTY);
+    let mut open = vec![(0, part)];
     while let Some((index, part)) = open.pop() {
         for (lane, part) in children(shape, part, &mut scratch, simd).into_iter().enumerate() {
             let what =
@@ -72,7 +120,6 @@ pub fn over(shape: &Shape, mut blocks: Vec<Item>, simd: Level) -> Vec<Node> {
             }
         }
     }
-    nodes.shrink_to_fit();
     nodes
 }
 

@@ -4,7 +4,7 @@ use super::maps::{Block, GROUP, GROUPS, TileMaps};
 use super::order::{Shown, shown, sorted};
 use super::{RasterMaps, Settings, THICKNESS};
 use accel::objects::{BLOCK, EMPTY_SLOT};
-use accel::{Objects, Raster};
+use accel::{Objects, Raster, concatenated, filled};
 use rayon::prelude::*;
 
 /// Blocks handled by one task.
@@ -23,34 +23,35 @@ impl<O: Objects> RasterMaps<O> {
     pub fn build(objects: O, raster: &Raster, settings: Settings) -> Self {
         let shown = shown(objects, raster, settings.simd);
         let order = sorted(&shown, raster, &settings);
-        let parts: Vec<Part> = order
+        let mut parts: Vec<Part> = order
             .par_chunks(CHUNK * BLOCK)
             .map(|slots| {
                 let mut part = Part::default();
                 for block in slots.chunks(BLOCK) {
-                    part.push(block.iter().map(|&i| shown[i as usize]));
+                    part.push(block.iter().map(|&i| shown[i as u32 as usize]));
                 }
                 part
             })
             .collect();
         drop(order);
-        let (mut unordered, mut words) = (Vec::new(), Vec::new());
-        words.reserve_exact(parts.iter().map(|p| p.words.len()).sum());
+        let mut words = 0;
+        let mut unordered = Vec::with_capacity(shown.len().div_ceil(BLOCK));
         for part in &parts {
-            let first = words.len() as u32;
-            words.extend_from_slice(&part.words);
-            unordered.extend(part.blocks.iter().map(|b| Block { words: b.words + first, ..*b }));
+            unordered.extend(part.blocks.iter().map(|b| Block { words: b.words + words, ..*b }));
+            words += part.words.len() as u32;
         }
+        let words: Vec<_> = parts.iter_mut().map(|part| std::mem::take(&mut part.words)).collect();
+        let words = concatenated(&words);
         // Depths are not negative, so their bits are ordered as they are. Words stay in the order of places.
         let mut nearest_first: Vec<(u32, u32)> =
             unordered.iter().zip(0..).map(|(block, i)| (block.depth[0].to_bits(), i)).collect();
         nearest_first.sort_unstable();
         let blocks: Vec<Block> = nearest_first.iter().map(|&(_, i)| unordered[i as usize]).collect();
-        let mut ids = Vec::with_capacity(blocks.len() * BLOCK);
-        for &(_, i) in &nearest_first {
+        let mut ids = filled(EMPTY_SLOT, blocks.len() * BLOCK);
+        ids.par_chunks_exact_mut(BLOCK).zip(&nearest_first).with_min_len(CHUNK).for_each(|(ids, &(_, i))| {
             let (part, block) = (i as usize / CHUNK, i as usize % CHUNK);
-            ids.extend_from_slice(&parts[part].ids[block * BLOCK..][..BLOCK]);
-        }
+            ids.copy_from_slice(&parts[part].ids[block * BLOCK..][..BLOCK]);
+        });
         drop(parts);
         let count = shown.len();
         drop(shown);

@@ -4,7 +4,7 @@ use super::{Settings, THICKNESS};
 use crate::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
 use accel::simd::{Level, Simd, Task};
-use accel::{Aabb, Objects, Projection, Raster};
+use accel::{Aabb, Objects, Projection, Raster, concatenated};
 use rayon::prelude::*;
 
 /// Where the image shows an object.
@@ -35,7 +35,7 @@ pub(super) fn shown<O: Objects>(objects: O, raster: &Raster, simd: Level) -> Vec
     }
     let parts: Vec<Vec<Shown>> =
         (0..objects.len().div_ceil(CHUNK)).into_par_iter().map(|i| of(i * CHUNK)).collect();
-    parts.concat()
+    concatenated(&parts)
 }
 
 /// The objects shown of [`CHUNK`] objects.
@@ -74,13 +74,13 @@ impl<O: Objects> Task for Projected<'_, O> {
     }
 }
 
-/// The places of `shown` in the order of blocks.
-pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> Vec<u32> {
+/// The places of `shown` in the order of blocks, each in the lower half of its key.
+pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> Vec<u64> {
     let side = raster.rows.max(raster.cols).div_ceil(THICKNESS).max(1);
     // Code units: the image's longer side has 2^BITS of them, so a slice has `slice`.
     let slice = (1 << BITS) as f32 / side as f32;
     // Counted from the far end: what has no room in a code is next to the eye, and little.
-    let far = shown.iter().map(|s| s.depth).fold(0.0, f32::max);
+    let far = shown.par_iter().with_min_len(CHUNK).map(|s| s.depth).reduce(|| 0.0, f32::max);
     // A block is as deep as it is wide where a unit of depth is as long as a unit of the image: everywhere for
     // parallel projection, and by the logarithm for perspective.
     let pixel = raster.right.length().max(f32::MIN_POSITIVE) / raster.forward.length();
@@ -103,5 +103,5 @@ pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> V
         .with_min_len(CHUNK)
         .map(|i| morton::keyed(code(&shown[i]), i as u32))
         .collect();
-    morton::sort_by_key(keyed).into_iter().map(|k| k as u32).collect()
+    morton::sort_by_key(keyed)
 }
