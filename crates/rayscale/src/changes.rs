@@ -1,20 +1,21 @@
 //! What changed from one record to another, and what is only noise.
 //!
 //! A disturbance (other work on the same core, a change of clock) only ever makes a sample longer, it lasts longer than a
-//! sample, and it slows some structures more than others. So a cell's figure is its least sample, the samples come
-//! from several passes over the scene, and what counts is whether any pass was left in peace: a bootstrap over raw samples that
-//! draws whole passes tells how well the figure is known. What two runs differ by besides (memory is laid out anew, the
-//! machine is warmer or busy all the time) no record can know of itself. The *other* structures' cells in the same two
-//! records do: by the middle of their ratios (the drift) and how far they spread about it, all of them and those on the same
-//! rays, whose samples were taken at the same time.
+//! sample, and it slows some structures more than others. And each pass builds anew: a structure that happens to lie well in
+//! memory is faster for that pass, in all its cells. So samples come from several passes over the scene, and a cell's figure
+//! is either its least sample, which one pass left in peace is enough for, or the middle of its passes' least, which one lucky
+//! build does not change: whichever is known better by a bootstrap over raw samples that draws whole passes. What two
+//! runs differ by besides (memory is laid out anew, the machine is warmer or busy all the time) no record can know of
+//! itself. The *other* structures' cells in the same two records do: by the middle of their ratios (the drift) and how far they
+//! spread about it, all of them and those on the same rays, whose samples were taken at the same time.
 //!
 //! A structure is judged as a whole too, by the middle of its cells' ratios, against those of the other structures:
 //! noise of single cells averages out, so that a smaller change is beyond it.
 
 use crate::record::{Cell, Key, Record};
-use crate::stats::{least_below, median};
+use crate::stats::{cluster_bootstrap, median, quantile};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Everything that two records share.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -56,7 +57,7 @@ pub struct Shift {
 /// A ratio and whether it means anything.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Judged {
-    /// The second's least time per ray over the first's.
+    /// The second's time per ray over the first's.
     pub ratio: f64,
     /// Middle of the ratios of the other structures; 1 if there are too few to tell.
     pub drift: f64,
@@ -71,7 +72,7 @@ pub struct Judged {
 /// Widths of ranges in spreads: among the hundreds of cells of a record hardly any is that far out by chance, and
 /// single cells have heavier tails than structures.
 const CELL_SPREADS: f64 = 5.0;
-const STRUCTURE_SPREADS: f64 = 4.0;
+const STRUCTURE_SPREADS: f64 = 3.5;
 /// The spread of log ratios that is expected before any is seen, and how many that counts for.
 const EXPECTED: (f64, f64) = (0.02, 4.0);
 /// With fewer than this of other structures, or of their cells, there is no telling a drift.
@@ -81,6 +82,8 @@ const ENOUGH_CELLS: usize = 8;
 const ONE_DEVIATION: f64 = 0.84;
 /// Draws of the bootstrap.
 const DRAWS: usize = 500;
+/// Passes from which on one of them does not change the middle.
+const ENOUGH_PASSES: usize = 3;
 /// Makes the median deviation of normal noise its standard deviation.
 const NORMAL: f64 = 1.4826;
 /// Standard error of the median of normal noise, over that of the mean.
@@ -93,18 +96,24 @@ struct Pair<'a> {
     log: f64,
     /// How well the passes of both runs agree on it.
     own: f64,
+    /// It in draws of their passes.
+    drawn: Vec<f64>,
 }
 
 /// Changes of time per ray from record `a` to `b`, over the cells that both have.
 pub fn changes(a: &Record, b: &Record) -> Changes {
     let name = |cell: &Cell| (cell.key(), cell.structure.clone(), cell.kernel.clone(), cell.query);
     let first: BTreeMap<_, &Cell> = a.cells.iter().map(|cell| (name(cell), cell)).collect();
-    let pairs: Vec<Pair> =
-        b.cells.iter().filter_map(|cell| Pair::of(first.get(&name(cell)).copied()?, cell)).collect();
-    let mut logs: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let scenes: BTreeSet<&str> = b.cells.iter().map(|cell| cell.scene.as_str()).collect();
+    let scenes: BTreeMap<&str, usize> = scenes.into_iter().zip(0..).collect();
+    let pair = |cell| Pair::of(first.get(&name(cell)).copied()?, cell, scenes[cell.scene.as_str()]);
+    let pairs: Vec<Pair> = b.cells.iter().filter_map(pair).collect();
+    let mut of_structures: BTreeMap<&str, Vec<&Pair>> = BTreeMap::new();
     for pair in &pairs {
-        logs.entry(&pair.cell.structure).or_default().push(pair.log);
+        of_structures.entry(&pair.cell.structure).or_default().push(pair);
     }
+    let logs = |pairs: &[&Pair]| pairs.iter().map(|pair| pair.log).collect();
+    let logs: BTreeMap<&str, Vec<f64>> = of_structures.iter().map(|(id, pairs)| (*id, logs(pairs))).collect();
     let middles: BTreeMap<&str, f64> =
         logs.iter().map(|(id, logs)| (*id, median(logs).unwrap_or(0.0))).collect();
     let others =
@@ -113,7 +122,8 @@ pub fn changes(a: &Record, b: &Record) -> Changes {
     let structures = logs.iter().map(|(id, logs)| {
         let among = Between::of(middles.iter().filter(|(o, _)| *o != id).map(|(_, m)| m), ENOUGH_STRUCTURES);
         let error = MEDIAN_ERROR * others[id].with(logs, middles[id]) / (logs.len() as f64).sqrt();
-        let judged = among.judge(middles[id], error, STRUCTURE_SPREADS);
+        let own = own_error(&of_structures[id], middles[id]);
+        let judged = among.judge(middles[id], error.hypot(own), STRUCTURE_SPREADS);
         Shift { structure: (*id).to_owned(), cells: logs.len(), judged }
     });
     let mut sets: BTreeMap<Key, Vec<&Pair>> = BTreeMap::new();
@@ -137,20 +147,72 @@ pub fn changes(a: &Record, b: &Record) -> Changes {
 }
 
 impl<'a> Pair<'a> {
-    fn of(before: &Cell, cell: &'a Cell) -> Option<Self> {
-        let ((a, own_a), (b, own_b)) = (floor(before)?, floor(cell)?);
-        Some(Self { cell, log: b - a, own: own_a.hypot(own_b) })
+    /// `scene` tells scenes apart: those of one have their passes in common.
+    fn of(before: &Cell, cell: &'a Cell, scene: usize) -> Option<Self> {
+        let seed = 2 * scene as u64;
+        let (a, b) = (figures(before, seed)?, figures(cell, seed + 1)?);
+        let pairs = a.into_iter().zip(b).map(|(a, b)| Self {
+            cell,
+            log: b.log - a.log,
+            own: a.error().hypot(b.error()),
+            drawn: a.drawn.iter().zip(&b.drawn).map(|(a, b)| b - a).collect(),
+        });
+        pairs.min_by(|one, other| one.own.total_cmp(&other.own))
     }
 }
 
-/// Logarithm of the least time per ray of a cell that did not fail, and how far it is known: by a cluster bootstrap over its
-/// passes, how much higher it might as well have come out.
-fn floor(cell: &Cell) -> Option<(f64, f64)> {
+/// Logarithm of a time per ray, as it came out and as it might as well have, by a cluster bootstrap over passes.
+struct Figure {
+    log: f64,
+    drawn: Vec<f64>,
+}
+
+/// The least sample of a cell that did not fail and, of enough passes, the middle of their least.
+fn figures(cell: &Cell, seed: u64) -> Option<Vec<Figure>> {
     cell.ns()?;
-    let passes = cell.passes_per_ray();
-    let least = passes.iter().flatten().copied().reduce(f64::min)?;
-    let upper = least_below(&passes, ONE_DEVIATION, DRAWS, 1)?;
-    (least > 0.0 && upper.is_finite()).then(|| (least.ln(), (upper / least).ln()))
+    let mut passes = cell.passes_per_ray();
+    passes.retain(|pass| !pass.is_empty());
+    let least = |passes: &[Vec<f64>]| passes.iter().map(|pass| least(pass)).fold(f64::INFINITY, f64::min);
+    let middle = |passes: &[Vec<f64>]| {
+        let passes: Vec<f64> = passes.iter().map(|pass| self::least(pass)).collect();
+        median(&passes).unwrap_or(f64::NAN)
+    };
+    let mut figures = vec![Figure::of(&passes, seed, least)?];
+    if passes.len() >= ENOUGH_PASSES {
+        figures.push(Figure::of(&passes, seed, middle)?);
+    }
+    Some(figures)
+}
+
+fn least(samples: &[f64]) -> f64 {
+    samples.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+impl Figure {
+    fn of(passes: &[Vec<f64>], seed: u64, statistic: impl Fn(&[Vec<f64>]) -> f64) -> Option<Self> {
+        let log = statistic(passes).ln();
+        let drawn = cluster_bootstrap(passes, DRAWS, seed, statistic).into_iter().map(f64::ln).collect();
+        let figure = Self { log, drawn };
+        (log.is_finite() && figure.error().is_finite()).then_some(figure)
+    }
+
+    fn error(&self) -> f64 {
+        reach(&self.drawn, self.log)
+    }
+}
+
+/// How far draws lie to either side of what came out: a standard deviation's worth.
+fn reach(drawn: &[f64], came_out: f64) -> f64 {
+    let quantile = |q: f64| quantile(drawn, q).unwrap_or(f64::NAN);
+    (quantile(ONE_DEVIATION) - came_out).max(came_out - quantile(1.0 - ONE_DEVIATION))
+}
+
+/// How far the middle of a structure's cells is known: their passes are drawn together, as other work disturbs and
+/// a lucky build favours many of them at once.
+fn own_error(pairs: &[&Pair], middle: f64) -> f64 {
+    let draw = |k: usize| median(&pairs.iter().map(|pair| pair.drawn[k]).collect::<Vec<_>>());
+    let drawn: Vec<f64> = (0..DRAWS).filter_map(draw).collect();
+    reach(&drawn, middle)
 }
 
 /// How the ratios of others lie between two records, as logarithms.

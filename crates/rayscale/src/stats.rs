@@ -48,29 +48,32 @@ pub fn geometric_mean(values: &[f64]) -> Option<f64> {
     Some((values.iter().map(|v| v.ln()).sum::<f64>() / values.len() as f64).exp())
 }
 
-/// How high the least of samples that come in groups might as well have been: the `confidence` quantile of the least
-/// over cluster bootstrap draws (Davison & Hinkley 1997, §3.8), in which groups are drawn with replacement and then
-/// samples from each. `draws` times, by a generator started at `seed`.
+/// A statistic of samples that come in groups, over cluster bootstrap draws (Davison & Hinkley 1997, §3.8): groups are
+/// drawn with replacement and then samples from each, `draws` times. Which groups are drawn depends on `seed` and on how many
+/// there are, so that what was sampled in the same groups can be drawn together. A group without a sample is left out.
 ///
-/// `None` if there is no sample, one is not a number, or `confidence` is not in [0, 1].
-pub fn least_below(groups: &[Vec<f64>], confidence: f64, draws: usize, seed: u64) -> Option<f64> {
+/// Empty if there is no sample.
+pub fn cluster_bootstrap(
+    groups: &[Vec<f64>],
+    draws: usize,
+    seed: u64,
+    statistic: impl Fn(&[Vec<f64>]) -> f64,
+) -> Vec<f64> {
     let groups: Vec<&Vec<f64>> = groups.iter().filter(|group| !group.is_empty()).collect();
-    let mut random = SplitMix(seed);
-    let mut draw = || {
-        let mut least = f64::INFINITY;
-        for _ in 0..groups.len() {
-            let group = groups[random.below(groups.len())];
-            for _ in 0..group.len() {
-                least = least.min(group[random.below(group.len())]);
-            }
-        }
-        least
-    };
-    if groups.iter().any(|group| group.iter().any(|x| x.is_nan())) || groups.is_empty() {
-        return None;
+    if groups.is_empty() {
+        return Vec::new();
     }
-    let least: Vec<f64> = (0..draws).map(|_| draw()).collect();
-    quantile(&least, confidence)
+    let (mut random, mut within) = (SplitMix(seed), SplitMix(!seed));
+    let mut drawn = vec![Vec::new(); groups.len()];
+    let mut draw = || {
+        for drawn in &mut drawn {
+            let group = groups[random.below(groups.len())];
+            drawn.clear();
+            drawn.extend((0..group.len()).map(|_| group[within.below(group.len())]));
+        }
+        statistic(&drawn)
+    };
+    (0..draws).map(|_| draw()).collect()
 }
 
 /// SplitMix64 (Steele, Lea & Flood 2014).
@@ -151,7 +154,8 @@ mod tests {
     fn the_least_is_known_where_groups_agree() {
         let calm = vec![100.0, 103.0, 101.0];
         let busy = vec![150.0, 153.0, 151.0];
-        let known = |groups: &[Vec<f64>]| least_below(groups, 0.84, 1000, 1).unwrap();
+        let least = |groups: &[Vec<f64>]| groups.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+        let known = |groups: &[Vec<f64>]| quantile(&cluster_bootstrap(groups, 1000, 1, least), 0.84).unwrap();
         assert!(known(&[calm.clone(), busy.clone(), calm.clone()]) <= 101.0);
         assert!(known(&[busy.clone(), busy.clone(), calm.clone()]) >= 150.0, "one group may be luck");
         // Told as one group, luck can't be seen.
@@ -159,9 +163,20 @@ mod tests {
     }
 
     #[test]
-    fn the_least_of_constants_is_the_constant_and_of_nothing_none() {
-        assert_eq!(least_below(&[vec![3.0; 5], Vec::new()], 0.99, 100, 7), Some(3.0));
-        assert_eq!(least_below(&[Vec::new()], 0.5, 100, 7), None);
-        assert_eq!(least_below(&[vec![1.0, f64::NAN]], 0.5, 100, 7), None);
+    fn draws_of_constants_are_the_constant_and_of_nothing_none() {
+        let first = |groups: &[Vec<f64>]| groups[0][0];
+        assert_eq!(cluster_bootstrap(&[vec![3.0; 5], Vec::new()], 100, 7, first), [3.0; 100]);
+        assert!(cluster_bootstrap(&[Vec::new()], 100, 7, first).is_empty());
+    }
+
+    #[test]
+    fn draws_of_one_seed_take_the_same_groups() {
+        let groups = |lengths: [usize; 3]| [0, 1, 2].map(|i| vec![f64::from(i); lengths[i as usize]]);
+        let drawn = |lengths, seed| {
+            let code = |groups: &[Vec<f64>]| groups.iter().fold(0.0, |code, group| 3.0 * code + group[0]);
+            cluster_bootstrap(&groups(lengths), 50, seed, code)
+        };
+        assert_eq!(drawn([1, 1, 1], 5), drawn([4, 1, 9], 5));
+        assert_ne!(drawn([1, 1, 1], 5), drawn([1, 1, 1], 6));
     }
 }

@@ -145,6 +145,24 @@ fn passes_that_disagree_widen_the_range_of_their_cell() {
     assert!(change(&a, &b).beyond_noise && change(&a, &b).relative() < 0.9);
 }
 
+/// Embree's packets on a small scene: in one pass of five the build happens to lie so that they take a twelfth less.
+#[test]
+fn a_lucky_build_in_one_pass_is_no_change() {
+    let mut dice = Dice(5);
+    let (mut a, mut b) = (run(&mut dice, QUIET, 1.0), run(&mut dice, QUIET, 1.0));
+    for cell in a.cells.iter_mut().chain(&mut b.cells) {
+        cell.passes = vec![2, 2, 1, 1, 1];
+    }
+    let lucky = |cell: &mut Cell| {
+        cell.trace_ns[5] = cell.trace_ns[5] * 11 / 12;
+        cell.summarise();
+    };
+    b.cells.iter_mut().filter(|cell| cell.structure == "structure-3").for_each(lucky);
+    let changes = changes(&a, &b);
+    let shift = changes.structures.iter().find(|s| s.structure == "structure-3").expect("in both");
+    assert!(!shift.judged.beyond_noise && shift.judged.relative() > 0.96, "{shift:?}");
+}
+
 #[test]
 fn what_all_cells_share_is_drift_and_no_change() {
     let mut dice = Dice(3);
