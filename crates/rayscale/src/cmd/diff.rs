@@ -11,7 +11,8 @@ use std::path::PathBuf;
 
 /// Show changes of time per ray from one record to another
 ///
-/// Compares the least times per ray: of each structure as a whole (the middle of its cells' ratios) and of each cell.
+/// Compares times per ray: of each structure as a whole (the middle of its cells' ratios) and of each cell. A cell's time is
+/// its least sample, or the middle of its passes' least where that is known better.
 /// Changes beyond noise are marked: those whose range leaves out 1. The range is as wide as a bootstrap over the raw
 /// samples and passes says, and as the other structures spread about their drift between the two records, several times over.
 #[derive(Debug, Args)]
