@@ -4,6 +4,7 @@ use super::maps::{Block, GROUP, GROUPS, TileMaps};
 use super::order::{Shown, shown, sorted};
 use super::{RasterMaps, Settings, THICKNESS};
 use accel::objects::{BLOCK, EMPTY_SLOT};
+use accel::simd::{Simd, Task, prefetch};
 use accel::{Objects, Raster, concatenated, filled};
 use rayon::prelude::*;
 
@@ -25,13 +26,7 @@ impl<O: Objects> RasterMaps<O> {
         let order = sorted(&shown, raster, &settings);
         let mut parts: Vec<Part> = order
             .par_chunks(CHUNK * BLOCK)
-            .map(|slots| {
-                let mut part = Part::default();
-                for block in slots.chunks(BLOCK) {
-                    part.push(block.iter().map(|&i| shown[i as u32 as usize]));
-                }
-                part
-            })
+            .map(|slots| settings.simd.run(Registered { shown: &shown, slots }))
             .collect();
         drop(order);
         let mut words = 0;
@@ -62,31 +57,59 @@ impl<O: Objects> RasterMaps<O> {
     }
 }
 
+/// Registers neighbouring objects, block by block.
+struct Registered<'a> {
+    shown: &'a [Shown],
+    /// Places among `shown`, in the lower halves.
+    slots: &'a [u64],
+}
+
+impl Task for Registered<'_> {
+    type Out = Part;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Part {
+        let mut part = Part::default();
+        part.ids.reserve_exact(self.slots.len().next_multiple_of(BLOCK));
+        for (i, block) in self.slots.chunks(BLOCK).enumerate() {
+            // They lie anywhere in memory.
+            for slot in self.slots.iter().skip((i + 1) * BLOCK).take(BLOCK) {
+                self.shown.get(*slot as u32 as usize).map(prefetch);
+            }
+            part.push(block.iter().map(|&i| self.shown[i as u32 as usize]));
+        }
+        part
+    }
+}
+
 impl Part {
     /// Appends a block.
+    #[inline(always)]
     fn push(&mut self, objects: impl Iterator<Item = Shown>) {
         let (mut slots, mut count) = ([Shown::default(); BLOCK], 0);
-        let mut keys = [u64::MAX; BLOCK];
+        let mut depths = [NOTHING; BLOCK];
         let (mut row, mut row_end, mut col, mut col_end) = (u32::MAX, 0, u32::MAX, 0);
-        for ((slot, key), object) in slots.iter_mut().zip(&mut keys).zip(objects) {
+        for ((slot, depth), object) in slots.iter_mut().zip(&mut depths).zip(objects) {
             *slot = object;
-            *key = u64::from(object.depth.to_bits()) << 32 | count as u64;
+            *depth = object.depth.to_bits().cast_signed();
             (row, row_end) = (row.min(object.rows[0]), row_end.max(object.rows[1] + 1));
             (col, col_end) = (col.min(object.cols[0]), col_end.max(object.cols[1] + 1));
             count += 1;
         }
-        // Nearest first.
-        keys[..count].sort_unstable();
+        let ranks = ranks(&depths);
         let mut depth = [f32::INFINITY; GROUPS];
-        for (depth, key) in depth.iter_mut().zip(keys[..count].iter().step_by(GROUP)) {
-            *depth = f32::from_bits((key >> 32) as u32);
+        let mut nearest_first = [Shown::default(); BLOCK];
+        for (object, rank) in slots[..count].iter().zip(ranks) {
+            nearest_first[rank as usize % BLOCK] = *object;
+        }
+        for (depth, object) in depth.iter_mut().zip(nearest_first[..count].iter().step_by(GROUP)) {
+            *depth = object.depth;
         }
         let first = self.words.len();
         let block = Block { words: first as u32, row, rows: row_end - row, col, cols: col_end - col, depth };
         self.words.resize(first + block.len(), 0);
         let (r, s) = self.words[first..].split_at_mut(block.rows as usize);
-        for (slot, key) in keys[..count].iter().enumerate() {
-            let object = &slots[*key as u32 as usize];
+        for (slot, object) in nearest_first[..count].iter().enumerate() {
             for word in &mut r[(object.rows[0] - row) as usize..=(object.rows[1] - row) as usize] {
                 *word |= 1 << slot;
             }
@@ -97,5 +120,46 @@ impl Part {
         }
         self.ids.resize(self.ids.len() + BLOCK - count, EMPTY_SLOT);
         self.blocks.push(block);
+    }
+}
+
+/// The bits of a depth behind all others. Depths are not negative, so their bits are ordered as they are.
+const NOTHING: i32 = i32::MAX - 1;
+
+/// The place of each in their order, equal ones as they come.
+///
+/// By counting who comes before whom: that takes lanes and no branch, which a sort of so few can't foresee.
+#[inline(always)]
+fn ranks(depths: &[i32; BLOCK]) -> [u32; BLOCK] {
+    let mut ranks = [0; BLOCK];
+    // Those not yet passed come after an equal one.
+    let mut ends = *depths;
+    for end in &mut ends {
+        *end += 1;
+    }
+    for (i, depth) in depths.iter().enumerate() {
+        ends[i] = *depth;
+        for (rank, end) in ranks.iter_mut().zip(&ends) {
+            *rank += u32::from(depth < end);
+        }
+    }
+    ranks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn ranks_are_those_of_a_stable_sort(depths in prop::collection::vec(0..40i32, 0..=BLOCK)) {
+            let mut padded = [NOTHING; BLOCK];
+            padded[..depths.len()].copy_from_slice(&depths);
+            let mut places: Vec<usize> = (0..BLOCK).collect();
+            places.sort_by_key(|i| padded[*i]);
+            let ranks = ranks(&padded);
+            prop_assert!(places.into_iter().enumerate().all(|(rank, i)| ranks[i] as usize == rank));
+        }
     }
 }
