@@ -12,8 +12,11 @@
 //! A structure is judged as a whole too, by the middle of its cells' ratios, against those of the other structures:
 //! noise of single cells averages out, so that a smaller change is beyond it.
 
+mod figure;
+
 use crate::record::{Cell, Key, Record};
-use crate::stats::{cluster_bootstrap, median, quantile};
+use crate::stats::median;
+use figure::{DRAWS, figures, reach};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -78,12 +81,6 @@ const EXPECTED: (f64, f64) = (0.02, 4.0);
 /// With fewer than this of other structures, or of their cells, there is no telling a drift.
 const ENOUGH_STRUCTURES: usize = 3;
 const ENOUGH_CELLS: usize = 8;
-/// Of normal noise this share lies below one standard deviation.
-const ONE_DEVIATION: f64 = 0.84;
-/// Draws of the bootstrap.
-const DRAWS: usize = 500;
-/// Passes from which on one of them does not change the middle.
-const ENOUGH_PASSES: usize = 3;
 /// Makes the median deviation of normal noise its standard deviation.
 const NORMAL: f64 = 1.4826;
 /// Standard error of the median of normal noise, over that of the mean.
@@ -159,52 +156,6 @@ impl<'a> Pair<'a> {
         });
         pairs.min_by(|one, other| one.own.total_cmp(&other.own))
     }
-}
-
-/// Logarithm of a time per ray, as it came out and as it might as well have, by a cluster bootstrap over passes.
-struct Figure {
-    log: f64,
-    drawn: Vec<f64>,
-}
-
-/// The least sample of a cell that did not fail and, of enough passes, the middle of their least.
-fn figures(cell: &Cell, seed: u64) -> Option<Vec<Figure>> {
-    cell.ns()?;
-    let mut passes = cell.passes_per_ray();
-    passes.retain(|pass| !pass.is_empty());
-    let least = |passes: &[Vec<f64>]| passes.iter().map(|pass| least(pass)).fold(f64::INFINITY, f64::min);
-    let middle = |passes: &[Vec<f64>]| {
-        let passes: Vec<f64> = passes.iter().map(|pass| self::least(pass)).collect();
-        median(&passes).unwrap_or(f64::NAN)
-    };
-    let mut figures = vec![Figure::of(&passes, seed, least)?];
-    if passes.len() >= ENOUGH_PASSES {
-        figures.push(Figure::of(&passes, seed, middle)?);
-    }
-    Some(figures)
-}
-
-fn least(samples: &[f64]) -> f64 {
-    samples.iter().copied().fold(f64::INFINITY, f64::min)
-}
-
-impl Figure {
-    fn of(passes: &[Vec<f64>], seed: u64, statistic: impl Fn(&[Vec<f64>]) -> f64) -> Option<Self> {
-        let log = statistic(passes).ln();
-        let drawn = cluster_bootstrap(passes, DRAWS, seed, statistic).into_iter().map(f64::ln).collect();
-        let figure = Self { log, drawn };
-        (log.is_finite() && figure.error().is_finite()).then_some(figure)
-    }
-
-    fn error(&self) -> f64 {
-        reach(&self.drawn, self.log)
-    }
-}
-
-/// How far draws lie to either side of what came out: a standard deviation's worth.
-fn reach(drawn: &[f64], came_out: f64) -> f64 {
-    let quantile = |q: f64| quantile(drawn, q).unwrap_or(f64::NAN);
-    (quantile(ONE_DEVIATION) - came_out).max(came_out - quantile(1.0 - ONE_DEVIATION))
 }
 
 /// How far the middle of a structure's cells is known: their passes are drawn together, as other work disturbs and
