@@ -76,7 +76,7 @@ impl Default for Options {
             cell_time: Duration::from_millis(250),
             build_rounds: 5,
             least_builds: 3,
-            build_time: Duration::from_millis(300),
+            build_time: Duration::from_secs(1),
             check_tests: speed * 100_000_000,
             exact_rays: 500,
             linear_tests: 8_000_000,
