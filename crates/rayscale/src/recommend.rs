@@ -1,5 +1,6 @@
 //! Which structure to use: measured candidates ranked under a user's constraints.
 
+use crate::auto::Wrong;
 use crate::record::{Cell, Record};
 use crate::stats::{geometric_mean, median};
 use crate::units;
@@ -17,6 +18,32 @@ pub struct Wish {
     pub rays_per_build: Option<f64>,
 }
 
+/// How many answers are wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ErrorRate {
+    /// The share that was seen to be.
+    pub share: f64,
+    /// The share that is not ruled out for the user's own rays ([`Wrong::likely_per_million`]); 0 if proven.
+    pub bound: f64,
+}
+
+impl ErrorRate {
+    /// None, by proof.
+    pub const NONE: Self = Self { share: 0.0, bound: 0.0 };
+
+    /// As seen among some rays.
+    pub fn seen(wrong: &Wrong) -> Self {
+        Self { share: wrong.per_million() / 1e6, bound: wrong.likely_per_million() / 1e6 }
+    }
+
+    fn worse(self, other: Self) -> Self {
+        Self { share: self.share.max(other.share), bound: self.bound.max(other.bound) }
+    }
+}
+
+/// Rates by kernel of the suite, or by structure that has a test of its own, and ray set.
+pub type ErrorRates = BTreeMap<(String, String), ErrorRate>;
+
 /// A structure with its figures on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidate {
@@ -30,8 +57,8 @@ pub struct Candidate {
     pub build_ns: f64,
     /// Bytes of structure and geometry copy, the most over ray sets.
     pub bytes: u64,
-    /// Share of wrong answers, the largest over ray sets; none where it was not decided.
-    pub error: Option<f64>,
+    /// Wrong answers, the most over ray sets; none where it was not decided.
+    pub error: Option<ErrorRate>,
     /// How the candidate fails the wish, in words; empty if it fits.
     pub misfits: Vec<String>,
     /// By which factor it exceeds what it exceeds most; 1 if it fits.
@@ -49,9 +76,8 @@ pub struct Recommendation {
     pub unfit: Vec<(String, String)>,
 }
 
-/// Ranks the structures of a record of one scene. `errors` has the share of wrong answers by
-/// kernel and ray set, for kernels of the suite.
-pub fn rank(record: &Record, errors: &BTreeMap<(String, String), f64>, wish: &Wish) -> Recommendation {
+/// Ranks the structures of a record of one scene.
+pub fn rank(record: &Record, errors: &ErrorRates, wish: &Wish) -> Recommendation {
     let mut all = Recommendation::default();
     let sets = record.ray_sets();
     for structure in record.structure_ids() {
@@ -71,7 +97,7 @@ fn candidate(
     structure: &str,
     cells: &[&Cell],
     sets: &[&str],
-    errors: &BTreeMap<(String, String), f64>,
+    errors: &ErrorRates,
     wish: &Wish,
 ) -> Result<Candidate, String> {
     if let Some(error) = cells.iter().find_map(|cell| cell.error.clone()) {
@@ -85,14 +111,14 @@ fn candidate(
     let share = |build: f64| wish.rays_per_build.map_or(0.0, |rays| build / rays.max(1.0));
     let mean = |values: Vec<f64>| geometric_mean(&values).ok_or("has no sample");
     let bytes = |cell: &&Cell| cell.bytes.as_ref().map_or(0, |b| b.structure + b.geometry_copy);
-    let wrong: Option<Vec<f64>> = cells.iter().map(|cell| error_rate(cell, errors)).collect();
+    let wrong: Option<Vec<ErrorRate>> = cells.iter().map(|cell| error_rate(cell, errors)).collect();
     let mut candidate = Candidate {
         structure: structure.to_owned(),
         cost: mean(figures.iter().map(|(ns, build)| ns + share(*build)).collect())?,
         ns: mean(figures.iter().map(|(ns, _)| *ns).collect())?,
         build_ns: figures.iter().map(|(_, build)| *build).fold(0.0, f64::max),
         bytes: cells.iter().map(bytes).max().unwrap_or(0),
-        error: wrong.map(|rates| rates.into_iter().fold(0.0, f64::max)),
+        error: wrong.map(|rates| rates.into_iter().fold(ErrorRate::NONE, ErrorRate::worse)),
         misfits: Vec::new(),
         excess: 1.0,
     };
@@ -103,10 +129,10 @@ fn candidate(
     }
     if let Some(limit) = wish.max_error {
         match candidate.error {
-            Some(error) if error <= limit => {}
-            Some(error) => {
-                candidate.misfits.push(format!("{} of its answers are wrong", per_million(error)));
-                candidate.excess = candidate.excess.max(error / limit.max(1e-12));
+            Some(error) if error.share <= limit => {}
+            Some(ErrorRate { share, .. }) => {
+                candidate.misfits.push(format!("{} of its answers are wrong", per_million(share)));
+                candidate.excess = candidate.excess.max(share / limit.max(1e-12));
             }
             None => {
                 candidate.misfits.push("its errors are not known".to_owned());
@@ -128,18 +154,26 @@ fn build(cell: &Cell) -> f64 {
     median(&samples).unwrap_or(0.0)
 }
 
-/// The share of wrong answers of a cell: those decided exactly or, for rays that only ask whether
-/// there is a hit, those that differ from brute force; for the suite's kernels the kernel's own.
-fn error_rate(cell: &Cell, errors: &BTreeMap<(String, String), f64>) -> Option<f64> {
-    let check = cell.check.as_ref()?;
-    let rays = check.rays_checked.max(1) as f64;
-    if cell.kernel != "own" {
-        return errors.get(&(cell.kernel.clone(), cell.rays.clone())).copied();
+/// Wrong answers of a cell: those of its kernel or structure or, where these were not examined, what the check of the cell
+/// decided exactly or, for rays that only ask whether there is a hit, found to differ from brute force.
+fn error_rate(cell: &Cell, errors: &ErrorRates) -> Option<ErrorRate> {
+    let foreign = cell.kernel == "own";
+    let examined = if foreign { &cell.structure } else { &cell.kernel };
+    let examined = errors.get(&(examined.clone(), cell.rays.clone())).copied();
+    if examined.is_some() || !foreign {
+        return examined;
     }
-    Some(match check.errors {
-        Some(e) => (e.missed + e.false_hits + e.wrong_object) as f64 / rays,
-        None => check.differences as f64 / rays,
-    })
+    let check = cell.check.as_ref()?;
+    let rays = check.rays_checked;
+    let mut wrong = Wrong { rays, of: rays, ..Wrong::default() };
+    match check.errors {
+        Some(e) => {
+            (wrong.missed, wrong.false_hits, wrong.wrong_object) = (e.missed, e.false_hits, e.wrong_object)
+        }
+        // Whether one is missing or invented was not asked.
+        None => wrong.missed = check.differences,
+    }
+    Some(ErrorRate::seen(&wrong))
 }
 
 #[cfg(test)]
@@ -203,14 +237,31 @@ mod tests {
                 Some(Errors { missed: 2, rays_exact: 1000, ..Errors::default() });
         }
         let key = |rays: &str| ("moller-trumbore".to_owned(), rays.to_owned());
-        let errors = [(key("parallel"), 0.0), (key("random"), 1e-4)].into();
+        let rate =
+            |missed| ErrorRate::seen(&Wrong { rays: 100_000, of: 100_000, missed, ..Wrong::default() });
+        let errors: ErrorRates = [(key("parallel"), rate(0)), (key("random"), rate(10))].into();
         let wish = Wish { max_error: Some(1e-3), ..Wish::default() };
         let all = rank(&record, &errors, &wish);
         assert_eq!(names(&all.fitting), ["a", "b"]);
-        assert_eq!(all.fitting[0].error, Some(1e-4));
-        assert_eq!(all.others[0].error, Some(2e-3));
+        assert_eq!(all.fitting[0].error.unwrap().share, 1e-4);
+        assert_eq!(all.others[0].error.unwrap().share, 2e-3);
+        let mut examined = errors.clone();
+        examined.extend(["parallel", "random"].map(|rays| (("c".to_owned(), rays.to_owned()), rate(1))));
+        let all = rank(&record, &examined, &wish);
+        assert_eq!(
+            names(&all.fitting),
+            ["c", "a", "b"],
+            "examined itself, whatever its cells were checked for"
+        );
         let unknown = rank(&record, &BTreeMap::new(), &wish);
         assert!(unknown.fitting.is_empty(), "what is not known does not fit");
+    }
+
+    #[test]
+    fn what_was_not_seen_is_not_ruled_out_but_by_proof() {
+        let none = ErrorRate::seen(&Wrong { rays: 30_000, of: 30_000, ..Wrong::default() });
+        assert!(none.share == 0.0 && (0.9e-4..1.1e-4).contains(&none.bound), "{none:?}");
+        assert_eq!(ErrorRate::NONE.worse(none), none);
     }
 
     #[test]

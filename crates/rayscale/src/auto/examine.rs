@@ -37,11 +37,14 @@ impl Wrong {
     }
 
     /// Wrong answers in a million: as they are where every ray was examined, else the most that
-    /// such a sample leaves likely (95 %, rare events; Wilson and Hilferty's approximation).
+    /// such a sample leaves likely.
     pub fn bound_per_million(&self) -> f64 {
-        if self.rays == self.of {
-            return self.per_million();
-        }
+        if self.rays == self.of { self.per_million() } else { self.likely_per_million() }
+    }
+
+    /// Wrong answers in a million of other rays of the same kind: the most that those examined leave likely (95 %, rare
+    /// events; Wilson and Hilferty's approximation).
+    pub fn likely_per_million(&self) -> f64 {
         let k = self.total() as f64 + 1.0;
         let most = k * (1.0 - 1.0 / (9.0 * k) + 1.645 / (3.0 * k.sqrt())).powi(3);
         most * 1e6 / self.rays.max(1) as f64
@@ -80,7 +83,7 @@ struct Known {
 /// Examines kernels on the rays of a scene of triangles.
 ///
 /// The exact kernel says which answers are right; every nearest hit on which another kernel
-/// differs is judged by the oracle besides.
+/// or a foreign structure differs is judged by the oracle besides.
 pub struct Examiner<'s> {
     scene: &'s Scene,
     known: Vec<Known>,
@@ -105,12 +108,12 @@ impl<'s> Examiner<'s> {
     /// A kernel's errors for each workload.
     pub fn examine(&mut self, kernel: KernelId) -> Vec<Wrong> {
         let accel = registry::quick(self.scene, kernel);
-        (0..self.known.len()).map(|i| self.one(i, accel.as_ref())).collect()
+        self.examine_structure(accel.as_ref())
     }
 
-    /// A kernel's errors in a million rays for each workload, by [`Wrong::bound_per_million`].
-    pub fn rates(&mut self, kernel: KernelId) -> Vec<f64> {
-        self.examine(kernel).iter().map(Wrong::bound_per_million).collect()
+    /// A structure's errors for each workload.
+    pub fn examine_structure(&mut self, accel: &dyn Accel) -> Vec<Wrong> {
+        (0..self.known.len()).map(|i| self.one(i, accel)).collect()
     }
 
     /// A kernel's errors over all workloads.

@@ -4,15 +4,14 @@ use super::kernel::per_million;
 use super::selection::Selection;
 use super::{Console, Error, Outcome, Verb};
 use crate::auto::Examiner;
-use crate::measure::{Options, Session, begin, run, workloads};
-use crate::recommend::{self, Candidate, Recommendation, Wish, rank};
+use crate::measure::{Options, Session, begin, guard, guarded_build, run, workloads};
+use crate::recommend::{self, Candidate, ErrorRate, ErrorRates, Recommendation, Wish, rank};
 use crate::record::Record;
 use crate::registry::{self, Choice, StructureSpec};
 use crate::scene::{self, SceneSpec};
 use crate::units;
-use accel::{KernelId, Scene};
+use accel::{KernelId, Need, Scene};
 use clap::Args;
-use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -109,7 +108,8 @@ impl Verb for Recommend {
         let (record, errors) = console.in_pool(1, || {
             let record =
                 run(&session, &choices, begin(&session, &choices), |line| tell(console, line), |_| {});
-            let errors = if self.max_error.is_some() { errors(&session, &scene) } else { BTreeMap::new() };
+            let errors =
+                if self.max_error.is_some() { errors(&session, &scene, &choices) } else { ErrorRates::new() };
             (record, errors)
         })?;
         let record = record?;
@@ -168,16 +168,29 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
     specs.iter().map(|spec| Ok(registry::choose(spec)?)).collect()
 }
 
-/// The share of wrong answers of the suite's kernels, as for the kernel `auto`.
-fn errors(session: &Session, scene: &Scene) -> BTreeMap<(String, String), f64> {
-    let mut all = BTreeMap::new();
+/// Wrong answers of the suite's kernels, as for the kernel `auto`, and of structures with a test of their own.
+fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
+    let mut all = ErrorRates::new();
     let workloads = workloads(session, scene, &mut Vec::new());
     let mut examiner = Examiner::new(scene, &workloads, JUDGED * workloads.len());
+    let mut enter = |name: &str, rates: Vec<ErrorRate>| {
+        all.extend(workloads.iter().zip(rates).map(|(w, rate)| ((name.to_owned(), w.id.clone()), rate)));
+    };
     for kernel in KERNELS {
-        let known =
-            if kernel == KernelId::Exact { vec![0.0; workloads.len()] } else { examiner.rates(kernel) };
-        for (workload, rate) in workloads.iter().zip(known) {
-            all.insert((kernel.id().to_owned(), workload.id.clone()), rate / 1e6);
+        enter(
+            kernel.id(),
+            match kernel {
+                KernelId::Exact => vec![ErrorRate::NONE; workloads.len()],
+                _ => examiner.examine(kernel).iter().map(ErrorRate::seen).collect(),
+            },
+        );
+    }
+    // Those that serve one image only are left to the checks of their cells.
+    for choice in choices.iter().filter(|c| !c.entry.traits.own_kernel && c.entry.traits.lists) {
+        // Whoever can't be built, or panics, has said so where it was measured.
+        let Ok(accel) = guarded_build(choice, scene, &Need::GENERAL) else { continue };
+        if let Ok(wrong) = guard("tracing", || examiner.examine_structure(accel.as_ref())) {
+            enter(&choice.spec.to_string(), wrong.iter().map(ErrorRate::seen).collect());
         }
     }
     all
@@ -218,9 +231,16 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
                     format!("; {next} takes {ratio:.2} times as long")
                 }
             });
+            let open = wish.max_error.zip(best.error).filter(|(limit, error)| error.bound > *limit);
+            let open = open.map_or(String::new(), |(_, error)| {
+                format!(
+                    "\nThe rays looked at do not rule out that {} of its answers are wrong; only the kernel `exact` is proven.",
+                    recommend::per_million(error.bound)
+                )
+            });
             write!(
                 text,
-                "\nUse `{}`: the least time per ray{build} on {sets} rays of all that fit ({}){gap}.\nIts settings: {}",
+                "\nUse `{}`: the least time per ray{build} on {sets} rays of all that fit ({}){gap}.{open}\nIts settings: {}",
                 best.structure,
                 units::time(best.cost),
                 settings(&best.structure)
@@ -240,8 +260,9 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
 
 fn row(c: &Candidate, width: usize) -> String {
     let error = match c.error {
-        Some(0.0) => "none seen".to_owned(),
-        Some(error) => recommend::per_million(error),
+        Some(ErrorRate::NONE) => "none".to_owned(),
+        Some(ErrorRate { share: 0.0, .. }) => "none seen".to_owned(),
+        Some(ErrorRate { share, .. }) => recommend::per_million(share),
         None => String::new(),
     };
     let (ns, build) = (units::time(c.ns), units::time(c.build_ns));
