@@ -16,8 +16,12 @@ pub struct Summary {
 pub fn summary(samples: &[f64]) -> Option<Summary> {
     let median = median(samples)?;
     let deviations: Vec<f64> = samples.iter().map(|x| (x - median).abs()).collect();
-    let min = samples.iter().copied().fold(f64::INFINITY, f64::min);
-    Some(Summary { median, mad: self::median(&deviations)?, min })
+    Some(Summary { median, mad: self::median(&deviations)?, min: least(samples) })
+}
+
+/// The least sample; +∞ if there is none. What is not a number counts as no sample.
+pub fn least(samples: &[f64]) -> f64 {
+    samples.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 /// The middle sample, or the mean of the two in the middle; `None` if there is none or one is
@@ -154,7 +158,7 @@ mod tests {
     fn the_least_is_known_where_groups_agree() {
         let calm = vec![100.0, 103.0, 101.0];
         let busy = vec![150.0, 153.0, 151.0];
-        let least = |groups: &[Vec<f64>]| groups.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+        let least = |groups: &[Vec<f64>]| least(&groups.concat());
         let known = |groups: &[Vec<f64>]| quantile(&cluster_bootstrap(groups, 1000, 1, least), 0.84).unwrap();
         assert!(known(&[calm.clone(), busy.clone(), calm.clone()]) <= 101.0);
         assert!(known(&[busy.clone(), busy.clone(), calm.clone()]) >= 150.0, "one group may be luck");

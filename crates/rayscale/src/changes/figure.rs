@@ -1,7 +1,7 @@
 //! What a cell's time per ray is, and how well its passes know it.
 
 use crate::record::Cell;
-use crate::stats::{cluster_bootstrap, median, quantile};
+use crate::stats::{cluster_bootstrap, least, median, quantile};
 
 /// Draws of the bootstrap.
 pub const DRAWS: usize = 500;
@@ -24,20 +24,14 @@ pub fn figures(cell: &Cell, seed: u64) -> Option<Vec<Figure>> {
     cell.ns()?;
     let mut passes = cell.passes_per_ray();
     passes.retain(|pass| !pass.is_empty());
-    let least = |passes: &[Vec<f64>]| passes.iter().map(|pass| least(pass)).fold(f64::INFINITY, f64::min);
-    let middle = |passes: &[Vec<f64>]| {
-        let passes: Vec<f64> = passes.iter().map(|pass| self::least(pass)).collect();
-        median(&passes).unwrap_or(f64::NAN)
-    };
-    let mut figures = vec![Figure::of(&passes, seed, least)?];
+    let leasts = |passes: &[Vec<f64>]| -> Vec<f64> { passes.iter().map(|pass| least(pass)).collect() };
+    let of_all = |passes: &[Vec<f64>]| least(&leasts(passes));
+    let middle = |passes: &[Vec<f64>]| median(&leasts(passes)).unwrap_or(f64::NAN);
+    let mut figures = vec![Figure::of(&passes, seed, of_all)?];
     if passes.len() >= ENOUGH_PASSES {
         figures.push(Figure::of(&passes, seed, middle)?);
     }
     Some(figures)
-}
-
-fn least(samples: &[f64]) -> f64 {
-    samples.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 impl Figure {
