@@ -10,7 +10,7 @@ const LINK_NAME: &str = "libembree4.so";
 
 fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    let record = package.join("../../.setup/embree.txt");
+    let record = package.join("../../../.setup/embree.txt");
     println!("cargo::rerun-if-changed=build.rs");
     let found = if record.exists() {
         // Named only where it exists: cargo runs a script anew each time for a file that does not.
