@@ -4,6 +4,7 @@
 //! cargo xtask setup             find or install Embree 4, fetch the real meshes
 //! cargo xtask compare [ARGS]    set up, then `rayscale compare ARGS`
 //! cargo xtask test              set up, then every check of the workspace
+//! cargo xtask structure         which crates and modules import which, and that there is no cycle
 //! cargo xtask aarch64           the structures' tests with NEON, emulated if need be
 //! ```
 #![forbid(unsafe_code)]
@@ -18,6 +19,7 @@ mod pip;
 mod places;
 mod setup;
 mod shell;
+mod structure;
 mod tally;
 
 use std::process::ExitCode;
@@ -28,6 +30,7 @@ usage: cargo xtask <command>
   setup             find Embree 4 or install it; fetch the real meshes
   compare [ARGS]    set up, build, then run `rayscale compare ARGS`
   test              set up, then formatting, lints, tests, documentation
+  structure         list which crates and modules import which; fail on a cycle
   aarch64           the tests of accel, bmssm and ssm for aarch64, emulated on other processors
 
 Exit codes: 0 done, 1 a step failed, 2 bad usage.";
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
             Ok(ready) => checks::run(&places, &ready),
             Err(why) => fail(&format!("set-up failed: {why}")),
         },
+        ("structure", true) => structure(&places),
         ("aarch64", true) => aarch64::run(&places),
         ("help" | "--help" | "-h", _) => {
             println!("{USAGE}");
@@ -59,6 +63,16 @@ fn main() -> ExitCode {
             eprintln!("{USAGE}");
             ExitCode::from(2)
         }
+    }
+}
+
+fn structure(places: &places::Places) -> ExitCode {
+    match structure::examine(&places.root) {
+        Ok(findings) => {
+            print!("{}", findings.listing);
+            findings.verdict().map_or_else(|faults| fail(&faults), |()| ExitCode::SUCCESS)
+        }
+        Err(why) => fail(&why),
     }
 }
 
