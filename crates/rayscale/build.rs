@@ -1,8 +1,8 @@
-//! Embeds the scene definitions, and lets the binary find Embree when it is called directly.
+//! Says in the binary how it was built, and lets the binary find Embree when it is called directly.
 
-use std::path::{Path, PathBuf};
+use std::env;
+use std::path::Path;
 use std::process::Command;
-use std::{env, fs};
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -10,7 +10,6 @@ fn main() {
     if let Ok(dir) = env::var("DEP_EMBREE4_LIBDIR") {
         println!("cargo::rustc-link-arg=-Wl,-rpath,{dir}");
     }
-    list_scenes();
     describe_build();
 }
 
@@ -38,23 +37,4 @@ fn describe_build() {
     println!("cargo::rustc-env=RAYSCALE_PROFILE={}", env::var("PROFILE").unwrap_or_default());
     let flags = env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default().replace('\u{1f}', " ");
     println!("cargo::rustc-env=RAYSCALE_RUSTFLAGS={flags}");
-}
-
-/// Lists the definitions under `scenes/`: a scene is added by adding its file.
-fn list_scenes() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    println!("cargo::rerun-if-changed={}", folder.display());
-    let mut files: Vec<PathBuf> = fs::read_dir(&folder)
-        .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
-        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .collect();
-    files.sort();
-    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let items: String = files
-        .iter()
-        .map(|path| format!("({:?}, include_str!({:?})),\n", name(path), path.display().to_string()))
-        .collect();
-    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR")).join("definitions.rs");
-    fs::write(&out, format!("&[\n{items}]")).unwrap_or_else(|error| panic!("{}: {error}", out.display()));
 }

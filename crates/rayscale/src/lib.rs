@@ -2,29 +2,27 @@
 
 #![forbid(unsafe_code)]
 
+pub use scenes::{self as scene, exchange, near, rays};
+
 pub mod answers;
 pub mod auto;
 pub mod changes;
 pub mod check;
 pub mod clock;
 pub mod cmd;
-pub mod exchange;
 pub mod grouped;
 pub mod heap;
 pub mod machine;
 pub mod measure;
-pub mod near;
 pub mod output;
 pub mod palette;
 pub mod paper;
 pub mod picture;
-pub mod rays;
 pub mod rayset;
 pub mod recommend;
 pub mod record;
 pub mod registry;
 pub mod report;
-pub mod scene;
 pub mod stats;
 #[cfg(test)]
 mod testing;

@@ -4,7 +4,7 @@
 //! the raster of rays, closed, so that a side of s pixels covers s + 1 rays, centres uniform
 //! over the image, clipped at its border.
 
-use crate::scene::generate::Random;
+use crate::scene::Random;
 use accel::{Aabb, Geometry, Projection, Raster, Scene, Vec3, View};
 
 /// Rows and columns of the image, n = m in the paper.

@@ -2,7 +2,7 @@
 
 use super::timing::medians;
 use crate::rays;
-use crate::scene::generate::Random;
+use crate::scene::Random;
 use crate::scene::split;
 use accel::{BuildError, Builder, Geometry, Group, Mesh, Need, Ray, RaySet, Scene};
 use bmssm::dense::{BmssmDense, Resolution};

@@ -5,7 +5,7 @@ use super::loops::{Detail, Wide, appendix, wide, words};
 use super::printed::{OBJECTS, SIDES};
 use super::table::{Table, grid};
 use super::timing::medians;
-use crate::scene::generate::Random;
+use crate::scene::Random;
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::objects::{Boxes, Objects};

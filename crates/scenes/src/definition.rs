@@ -1,0 +1,164 @@
+//! Scene definitions: TOML files that say everything about a scene.
+
+use crate::generate::Generator;
+use crate::modifier::Transform;
+use accel::{Vec3, View};
+use serde::Deserialize;
+
+/// One TOML file under `scenes/`, or a user's own.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Definition {
+    /// The scene's name. In a template it holds numbers in braces, as in `small-{objects}`.
+    pub id: String,
+    /// What it shows, in a sentence.
+    pub description: String,
+    /// The one character that it tests.
+    pub character: String,
+    /// Who should suffer from it.
+    #[serde(default)]
+    pub suffers: String,
+    /// Seed of the generator.
+    #[serde(default = "one")]
+    pub seed: u64,
+    /// Whether the scene belongs to the default set.
+    #[serde(default)]
+    pub default: bool,
+    /// Template only: the scenes that lists show.
+    #[serde(default)]
+    pub members: Vec<String>,
+    /// Template only: those of them in the default set.
+    #[serde(default)]
+    pub default_members: Vec<String>,
+    /// Where the geometry comes from: a generator,
+    pub generator: Option<Generator>,
+    /// a mesh file,
+    pub file: Option<MeshFile>,
+    /// or another scene by its id, to be transformed.
+    pub base: Option<String>,
+    /// Applied to every coordinate after all else.
+    #[serde(default)]
+    pub transform: Transform,
+    /// Triangles are cut until no edge is longer (Skala 1993, §2).
+    pub split: Option<f64>,
+    /// The camera, before the transform; by default one that sees the whole scene.
+    pub view: Option<ViewHint>,
+}
+
+/// A mesh that is fetched at set-up, or a user's own.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct MeshFile {
+    /// File name in the folder of meshes; for a user's definition relative to it.
+    pub name: String,
+    /// SHA-256 of the file's bytes in hex; unchecked if absent.
+    pub sha256: Option<String>,
+    /// Where it comes from.
+    #[serde(default)]
+    pub source: String,
+    /// Under which terms.
+    #[serde(default)]
+    pub licence: String,
+    /// Number of triangles, for lists; checked on loading.
+    pub triangles: Option<u64>,
+}
+
+/// A camera.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct ViewHint {
+    /// Where the camera is.
+    pub eye: [f32; 3],
+    /// What it looks at.
+    pub target: [f32; 3],
+    /// What points up in the image.
+    #[serde(default = "z_up")]
+    pub up: [f32; 3],
+    /// Vertical opening angle in degrees.
+    #[serde(default = "forty_five")]
+    pub fov: f32,
+}
+
+fn one() -> u64 {
+    1
+}
+
+fn z_up() -> [f32; 3] {
+    [0.0, 0.0, 1.0]
+}
+
+fn forty_five() -> f32 {
+    45.0
+}
+
+impl From<ViewHint> for View {
+    fn from(hint: ViewHint) -> Self {
+        Self {
+            eye: Vec3::from_array(hint.eye),
+            target: Vec3::from_array(hint.target),
+            up: Vec3::from_array(hint.up),
+            fov_y_degrees: hint.fov,
+        }
+    }
+}
+
+impl Definition {
+    /// Reads a definition.
+    ///
+    /// # Errors
+    /// In words, what is wrong and where in the text.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let definition: Self =
+            toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
+        definition.validate()?;
+        Ok(definition)
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        let origins = [self.generator.is_some(), self.file.is_some(), self.base.is_some()];
+        if origins.iter().filter(|given| **given).count() != 1 {
+            return Err("exactly one of `generator`, `file` and `base` must be given".into());
+        }
+        if let Some(view) = self.view.map(View::from) {
+            let finite = view.eye.is_finite() && view.target.is_finite() && view.up.is_finite();
+            let across = (view.target - view.eye).cross(view.up);
+            if !finite
+                || across.length_squared() == 0.0
+                || !(view.fov_y_degrees > 0.0 && view.fov_y_degrees < 180.0)
+            {
+                return Err(
+                    "the view needs finite points, an `up` across its direction and 0 < fov < 180".into()
+                );
+            }
+        }
+        if self.split.is_some_and(|length| !(length > 0.0 && length.is_finite())) {
+            return Err("`split` must be a positive length".into());
+        }
+        self.transform.validate()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEAD: &str = "id = 'a'\ndescription = 'b'\ncharacter = 'c'\n";
+
+    #[test]
+    fn slips_are_explained() {
+        for (text, says) in [
+            ("", "exactly one of"),
+            ("base = 'x'\n[generator]\nkind = 'sombrero'\nsize_factor = 1", "exactly one of"),
+            ("[generator]\nkind = 'sombrro'", "sombrro"),
+            ("[generator]\nkind = 'sombrero'\nsize = 1", "size"),
+            ("base = 'x'\nsplit = -1.0", "positive length"),
+            ("base = 'x'\n[transform]\nscale_exponent = 4000", "exponent"),
+            ("base = 'x'\n[view]\neye = [0, 0, 1]\ntarget = [0, 0, 0]", "up"),
+            ("base = 'x'\nbogus = 1", "bogus"),
+        ] {
+            let error = Definition::parse(&format!("{HEAD}{text}")).unwrap_err();
+            assert!(error.contains(says), "{text:?} gave {error}");
+        }
+        assert!(Definition::parse(&format!("{HEAD}base = 'x'")).is_ok());
+    }
+}

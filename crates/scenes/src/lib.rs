@@ -1,0 +1,45 @@
+//! Scenes and rays to compare structures by: definitions, generators, readers of meshes, ray
+//! sets, and rays and hits as CSV.
+//!
+//! ```
+//! use scenes::{load, SceneSpec};
+//!
+//! let spec: SceneSpec = "bumps-2k@scale=-10".parse()?;
+//! let scene = load(&spec)?;
+//! assert_eq!(scene.id, "bumps-2k@scale=-10");
+//! # Ok::<(), scenes::SceneError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+
+mod catalog;
+mod checksum;
+mod definition;
+mod error;
+pub mod exchange;
+mod export;
+pub mod generate;
+mod modifier;
+pub mod near;
+mod random;
+pub mod rays;
+mod reader;
+mod resolve;
+mod solid;
+mod spec;
+mod split;
+#[cfg(test)]
+mod tests;
+mod view;
+
+pub use catalog::{SceneInfo, describe, list};
+pub use checksum::checksum;
+pub use error::SceneError;
+pub use export::{export_obj, write_obj};
+pub use modifier::{Modifiers, Transform};
+pub use random::Random;
+pub use reader::{file_sha256, mesh as load_mesh};
+pub use resolve::{Loaded, load, load_full};
+pub use spec::{SceneSpec, Source};
+pub use split::{Split, split};
+pub use view::framing;

@@ -1,0 +1,58 @@
+//! Ray sets: what is asked of a scene's structure.
+//!
+//! A set follows from the scene, its name, its size and a seed. `shadow`, `ambient`,
+//! `diffuse` and two of the torture sets start from hits: they also need something that
+//! answers closest-hit rays, any [`Accel`] built with [`Need::GENERAL`](accel::Need::GENERAL).
+//!
+//! ```
+//! use accel::{baseline::Brute, Builder, KernelId, Need};
+//! use scenes::rays::{RaysId, RaysSpec, generate};
+//!
+//! let scene = scenes::load(&"unit-flat".parse()?)?;
+//! let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Need::GENERAL)?;
+//! let spec = RaysSpec { id: RaysId::Diffuse, rows: 8, cols: 8, seed: 1 };
+//! assert_eq!(generate(&scene, &spec, brute.as_ref())?.len(), 64);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod features;
+mod frame;
+mod id;
+mod lines;
+mod raster;
+mod spawn;
+mod spec;
+#[cfg(test)]
+mod tests;
+mod torture;
+
+pub use id::{Query, RaysError, RaysId};
+pub use raster::{parallel, perspective};
+pub use spawn::offset as spawn_offset;
+pub use spec::RaysSpec;
+
+use accel::{Accel, RaySet, Scene};
+
+/// Makes the rays. `tracer` answers closest hits of the scene, where [`RaysId::needs_hits`];
+/// its answers are part of what the set depends on.
+///
+/// # Errors
+/// [`RaysError::NoHits`] where rays start from hits and the view meets nothing,
+/// [`RaysError::NoObjects`] where they aim at objects and there is none.
+///
+/// # Panics
+/// If `tracer` serves general rays no better than to panic.
+pub fn generate(scene: &Scene, spec: &RaysSpec, tracer: &dyn Accel) -> Result<RaySet, RaysError> {
+    let RaysSpec { id, rows, cols, .. } = *spec;
+    let list = match id {
+        RaysId::Parallel => {
+            return Ok(RaySet::Raster(parallel(&scene.view, &scene.geometry.bounds(), rows, cols)));
+        }
+        RaysId::Perspective => return Ok(RaySet::Raster(perspective(&scene.view, rows, cols))),
+        RaysId::Shadow | RaysId::Ambient | RaysId::Diffuse => spawn::from_hits(scene, spec, tracer)?,
+        RaysId::Random => lines::random(scene, spec),
+        RaysId::Axis => lines::axis(scene, spec),
+        _ => torture::rays(scene, spec, tracer)?,
+    };
+    Ok(RaySet::List(list))
+}
