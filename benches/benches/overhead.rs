@@ -31,20 +31,31 @@ fn main() {
 
 #[cfg(feature = "embree")]
 fn embree(scene: &Scene, mesh: &Mesh, rays: &RaySet, pairs: usize) {
-    use adapter_embree::rayhit::{Ray1, RayHit1};
-    use adapter_embree::{Device, EmbreeScene, SceneSettings, sys};
+    use adapter_embree::{Device, EmbreeScene, SceneSettings};
+    use embree4_sys::{RTC_INVALID_GEOMETRY_ID, RTCHit, RTCRay, RTCRayHit};
     let settings = SceneSettings::default();
     let device = Device::new(1).expect("a device");
     let bare = EmbreeScene::new(device, mesh, settings).expect("a scene of triangles");
     compare("embree", scene, rays, pairs, |hits| {
         for (i, out) in hits.iter_mut().enumerate() {
             let from = rays.ray(i);
-            let (origin, direction) = (from.origin.to_array(), from.direction.to_array());
-            let mut rayhit = RayHit1::new(Ray1::new(origin, direction, from.t_min, from.t_max));
+            let (origin, direction) = (from.origin, from.direction);
+            let ray = RTCRay {
+                org_x: origin.x,
+                org_y: origin.y,
+                org_z: origin.z,
+                tnear: from.t_min,
+                dir_x: direction.x,
+                dir_y: direction.y,
+                dir_z: direction.z,
+                tfar: from.t_max,
+                ..RTCRay::default()
+            };
+            let mut rayhit = RTCRayHit { ray, hit: RTCHit::default() };
             bare.intersect1(&mut rayhit);
             let hit = rayhit.hit;
-            let found = hit.geom != sys::RTC_INVALID_GEOMETRY_ID;
-            *out = found.then_some(Hit { t: rayhit.ray.tfar, object: hit.prim, u: hit.u, v: hit.v });
+            let found = hit.geomID != RTC_INVALID_GEOMETRY_ID;
+            *out = found.then_some(Hit { t: rayhit.ray.tfar, object: hit.primID, u: hit.u, v: hit.v });
         }
     });
 }

@@ -6,7 +6,7 @@ use std::process::Command;
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    // Set by the build script of adapter-embree; absent without the feature `embree`.
+    // Set by the build script of embree4-sys; absent without the feature `embree`.
     if let Ok(dir) = env::var("DEP_EMBREE4_LIBDIR") {
         println!("cargo::rustc-link-arg=-Wl,-rpath,{dir}");
     }

@@ -33,7 +33,7 @@ const fn look(light: &'static str, dark: &'static str, shape: Shape) -> Look {
 }
 
 /// Id and look of every structure.
-const LOOKS: [(&str, Look); 13] = [
+const LOOKS: [(&str, Look); 14] = [
     ("bmssm", look("#da670c", "#e65315", Shape::Circle)),
     ("bmssm-dense", look("#38120a", "#98562a", Shape::Square)),
     ("ssm", look("#7f6c2a", "#efb21f", Shape::Diamond)),
@@ -44,6 +44,7 @@ const LOOKS: [(&str, Look); 13] = [
     ("embree-robust", look("#0b3759", "#b2dffe", Shape::Diamond)),
     ("embree-compact", look("#1997f6", "#336ba2", Shape::Circle)),
     ("embree-packet", look("#4603b4", "#a027e8", Shape::Triangle)),
+    ("embree-rs", look("#8a48fc", "#d25afc", Shape::Square)),
     ("minmax", look("#6a6a6a", "#9b9b9b", Shape::Triangle)),
     ("sphere", look("#3c3c3c", "#666666", Shape::Circle)),
     ("brute", look("#939393", "#cfcfcf", Shape::Square)),

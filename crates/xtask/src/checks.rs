@@ -11,8 +11,8 @@ use crate::tally::Tally;
 /// What must build and pass on a machine without Embree or any C++.
 pub const CORE: [&str; 3] = ["rayscale-accel", "bmssm", "rayscale-ssm"];
 
-/// The package that links with Embree.
-const ADAPTER: &str = "rayscale-adapter-embree";
+/// The packages that link with Embree.
+const ADAPTER: [&str; 2] = ["rayscale-adapter-embree", "embree4-sys"];
 
 type Step<'a> = (&'a str, &'a dyn Fn(&mut Tally) -> Result<(), String>);
 
@@ -27,7 +27,7 @@ pub fn run(places: &Places, ready: &Ready) -> ExitCode {
         let mut command = here(verb);
         command.arg("--workspace");
         if !ready.embree {
-            command.args(["--no-default-features", "--exclude", ADAPTER]);
+            command.arg("--no-default-features").args(ADAPTER.map(|package| format!("--exclude={package}")));
         }
         command
     };

@@ -39,7 +39,7 @@ pub fn run(places: &Places) -> Result<Ready, String> {
     Ok(Ready { embree })
 }
 
-/// Writes the record that the build script of `adapter-embree` reads; an unchanged record is left
+/// Writes the record that the build script of `embree4-sys` reads; an unchanged record is left
 /// alone, because a new time stamp would rebuild everything that links with Embree.
 fn record(places: &Places, embree: &Embree) -> Result<(), String> {
     let text = format!("lib={}\nsource={}\n", embree.lib.display(), embree.source);

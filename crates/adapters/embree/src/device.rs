@@ -1,14 +1,47 @@
 //! A device: Embree's configuration, its errors and its memory.
 
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ffi::{CStr, CString, c_char, c_void};
 use std::ptr::NonNull;
 use std::sync::atomic::{AtomicI64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::sys;
+use embree4_sys::{self as sys, RTCDeviceProperty, RTCError};
 
-/// Environment variable whose value is added to every device's configuration, such as `isa=avx2`.
-pub const CONFIG_VARIABLE: &str = "RAYSCALE_EMBREE_CONFIG";
+/// The widest instructions that Embree may choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Isa {
+    /// SSE2.
+    Sse2,
+    /// SSE4.2.
+    Sse42,
+    /// AVX.
+    Avx,
+    /// AVX2.
+    Avx2,
+    /// AVX-512.
+    Avx512,
+}
+
+impl Isa {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Sse2, Self::Sse42, Self::Avx, Self::Avx2, Self::Avx512];
+
+    /// Its name as a setting, and in Embree's configuration.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Sse2 => "sse2",
+            Self::Sse42 => "sse4.2",
+            Self::Avx => "avx",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    /// The one of that name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|isa| isa.id() == id)
+    }
+}
 
 /// What went wrong in Embree or on the way to it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -65,8 +98,9 @@ struct Watch {
 /// An Embree device, released when dropped.
 pub struct Device {
     handle: NonNull<sys::RTCDeviceTy>,
-    /// Boxed so that it stays where Embree was told it is.
-    watch: Box<Watch>,
+    /// Embree holds a pointer to it. Moving the device moves a reference-counted pointer, which, unlike a box, claims
+    /// no sole access to what it points to.
+    watch: Arc<Watch>,
 }
 
 // SAFETY: Embree's devices may be used from any thread and from several at once; the watch is made
@@ -76,19 +110,21 @@ unsafe impl Send for Device {}
 unsafe impl Sync for Device {}
 
 impl Device {
-    /// A device that builds with `threads` threads (0 for all there are).
+    /// A device that builds with `threads` threads (0 for all there are) and the best instructions of the processor.
     ///
     /// # Errors
-    /// If Embree refuses the configuration or the processor.
+    /// If Embree refuses the processor.
     pub fn new(threads: usize) -> Result<Self, EmbreeError> {
-        let mut configuration = format!("threads={threads}");
-        if let Ok(more) = std::env::var(CONFIG_VARIABLE)
-            && !more.is_empty()
-        {
-            configuration.push(',');
-            configuration.push_str(&more);
-        }
-        Self::with_configuration(&configuration)
+        Self::with_configuration(&format!("threads={threads}"))
+    }
+
+    /// A device that builds and traces with at most these instructions.
+    ///
+    /// # Errors
+    /// If Embree refuses the processor.
+    pub fn limited(threads: usize, isa: Isa) -> Result<Self, EmbreeError> {
+        // `isa=` would have Embree run them on a processor without them.
+        Self::with_configuration(&format!("threads={threads},max_isa={}", isa.id()))
     }
 
     /// A device made from a configuration string (see the manual of `rtcNewDevice`).
@@ -102,13 +138,13 @@ impl Device {
         let device = unsafe { sys::rtcNewDevice(text.as_ptr()) };
         let Some(handle) = NonNull::new(device) else {
             // SAFETY: null asks for the error of this thread.
-            let code = unsafe { sys::rtcGetDeviceError(std::ptr::null_mut()) };
+            let RTCError(code) = unsafe { sys::rtcGetDeviceError(std::ptr::null_mut()) };
             return Err(EmbreeError::Device { configuration: configuration.to_owned(), code });
         };
-        let device = Self { handle, watch: Box::default() };
-        let user = std::ptr::from_ref::<Watch>(&device.watch).cast_mut().cast::<c_void>();
-        // SAFETY: the handle is live, and the watch outlives it: it is boxed, and dropped after the
-        // device's last reference is released.
+        let device = Self { handle, watch: Arc::default() };
+        let user = Arc::as_ptr(&device.watch).cast_mut().cast::<c_void>();
+        // SAFETY: the handle is live. The watch stays where it is and outlives the handle: it is dropped after the
+        // device's last reference is released. The functions only read through the pointer.
         unsafe {
             sys::rtcSetDeviceErrorFunction(handle.as_ptr(), Some(on_error), user);
             sys::rtcSetDeviceMemoryMonitorFunction(handle.as_ptr(), Some(on_memory), user);
@@ -120,8 +156,7 @@ impl Device {
     /// Version of the library: major, minor, patch.
     pub fn version(&self) -> (u32, u32, u32) {
         // SAFETY: the handle is live.
-        let version =
-            unsafe { sys::rtcGetDeviceProperty(self.handle.as_ptr(), sys::RTC_DEVICE_PROPERTY_VERSION) };
+        let version = unsafe { sys::rtcGetDeviceProperty(self.handle.as_ptr(), RTCDeviceProperty::VERSION) };
         let version = u32::try_from(version).unwrap_or(0);
         (version / 10_000, version / 100 % 100, version % 100)
     }
@@ -141,11 +176,11 @@ impl Device {
     pub(crate) fn check(&self, doing: &'static str) -> Result<(), EmbreeError> {
         // SAFETY: the handle is live.
         let code = unsafe { sys::rtcGetDeviceError(self.handle.as_ptr()) };
-        if code == sys::RTC_ERROR_NONE {
+        if code == RTCError::NONE {
             return Ok(());
         }
         let message = self.watch.last_error.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        Err(EmbreeError::Call { doing, code, message })
+        Err(EmbreeError::Call { doing, code: code.0, message })
     }
 }
 
@@ -169,7 +204,7 @@ pub fn version() -> Result<(u32, u32, u32), EmbreeError> {
 ///
 /// # Safety
 /// `user` must be null or point to a live [`Watch`], `message` be null or NUL-terminated.
-unsafe extern "C" fn on_error(user: *mut c_void, _code: c_int, message: *const c_char) {
+unsafe extern "C" fn on_error(user: *mut c_void, _code: RTCError, message: *const c_char) {
     if user.is_null() || message.is_null() {
         return;
     }
@@ -204,6 +239,31 @@ mod tests {
     }
 
     #[test]
+    fn fewer_instructions_than_the_processor_has_are_taken() {
+        for isa in [Isa::Sse2, Isa::Sse42] {
+            Device::limited(1, isa).unwrap();
+        }
+        assert!(Isa::ALL.into_iter().all(|isa| Isa::from_id(isa.id()) == Some(isa)));
+        assert_eq!(Isa::from_id("avx3"), None);
+    }
+
+    #[test]
+    fn a_device_counts_wherever_it_is_moved() {
+        let mut devices = vec![Device::new(1).unwrap()];
+        devices.reserve(100);
+        let moved = Box::new(devices.remove(0));
+        // SAFETY: the handle is live, and the buffer goes with its geometry.
+        unsafe {
+            let geometry = sys::rtcNewGeometry(moved.handle(), sys::RTCGeometryType::TRIANGLE);
+            let (kind, format) = (sys::RTCBufferType::VERTEX, sys::RTCFormat::FLOAT3);
+            assert!(!sys::rtcSetNewGeometryBuffer(geometry, kind, 0, format, 12, 1000).is_null());
+            assert!(moved.memory().now >= 12_000);
+            sys::rtcReleaseGeometry(geometry);
+        }
+        assert!(moved.memory().peak >= 12_000);
+    }
+
+    #[test]
     fn a_configuration_with_a_nul_is_refused() {
         let error = Device::with_configuration("threads=1\0isa=avx2").err();
         assert!(matches!(error, Some(EmbreeError::Configuration(_))));
@@ -213,7 +273,7 @@ mod tests {
     fn a_failed_call_is_reported_once_with_embree_s_words() {
         let device = Device::new(1).unwrap();
         // SAFETY: the handle is live; 9999 is no geometry type, which Embree reports as an error.
-        let geometry = unsafe { sys::rtcNewGeometry(device.handle(), 9999) };
+        let geometry = unsafe { sys::rtcNewGeometry(device.handle(), sys::RTCGeometryType(9999)) };
         assert!(geometry.is_null());
         let Err(EmbreeError::Call { doing, message, .. }) = device.check("asking for nonsense") else {
             panic!("an unknown geometry type was accepted");

@@ -5,9 +5,13 @@ use std::ptr::NonNull;
 
 use accel::{Hit, Mesh, Ray, Vec3, vec_bytes};
 
+use embree4_sys::{
+    self as sys, RTC_INVALID_GEOMETRY_ID, RTCBufferType, RTCBuildQuality, RTCFormat, RTCGeometryType, RTCHit,
+    RTCIntersectArguments, RTCOccludedArguments, RTCRay, RTCRayHit, RTCRayQueryFlags, RTCSceneFlags,
+};
+
 use crate::device::{Device, EmbreeError, MemoryUse};
-use crate::rayhit::{Ray1, RayHit1, RayHit16, Valid16};
-use crate::sys::{self, QueryArguments};
+use crate::packet::{self, Active, packet};
 
 /// How much time a build may take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,12 +40,11 @@ impl Quality {
         [Self::Low, Self::Medium, Self::High].into_iter().find(|quality| quality.id() == id)
     }
 
-    /// `RTCBuildQuality`.
-    const fn code(self) -> i32 {
+    const fn code(self) -> RTCBuildQuality {
         match self {
-            Self::Low => 0,
-            Self::Medium => 1,
-            Self::High => 2,
+            Self::Low => RTCBuildQuality::LOW,
+            Self::Medium => RTCBuildQuality::MEDIUM,
+            Self::High => RTCBuildQuality::HIGH,
         }
     }
 }
@@ -57,8 +60,37 @@ pub struct SceneSettings {
     pub compact: bool,
 }
 
-static SINGLE_RAYS: QueryArguments = QueryArguments::new(sys::RTC_RAY_QUERY_FLAG_INCOHERENT);
-static COHERENT_RAYS: QueryArguments = QueryArguments::new(sys::RTC_RAY_QUERY_FLAG_COHERENT);
+/// What Embree may assume of the rays of a packet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coherence {
+    /// Nothing: `RTC_RAY_QUERY_FLAG_INCOHERENT`.
+    Incoherent,
+    /// They go the same way: `RTC_RAY_QUERY_FLAG_COHERENT`. No answer depends on it.
+    Coherent,
+}
+
+impl Coherence {
+    const fn intersect_arguments(self) -> &'static RTCIntersectArguments {
+        static INCOHERENT: RTCIntersectArguments = RTCIntersectArguments::new(RTCRayQueryFlags::INCOHERENT);
+        static COHERENT: RTCIntersectArguments = RTCIntersectArguments::new(RTCRayQueryFlags::COHERENT);
+        match self {
+            Self::Incoherent => &INCOHERENT,
+            Self::Coherent => &COHERENT,
+        }
+    }
+
+    const fn occluded_arguments(self) -> &'static RTCOccludedArguments {
+        static INCOHERENT: RTCOccludedArguments = RTCOccludedArguments::new(RTCRayQueryFlags::INCOHERENT);
+        static COHERENT: RTCOccludedArguments = RTCOccludedArguments::new(RTCRayQueryFlags::COHERENT);
+        match self {
+            Self::Incoherent => &INCOHERENT,
+            Self::Coherent => &COHERENT,
+        }
+    }
+}
+
+static INTERSECT: RTCIntersectArguments = RTCIntersectArguments::new(RTCRayQueryFlags::INCOHERENT);
+static OCCLUDED: RTCOccludedArguments = RTCOccludedArguments::new(RTCRayQueryFlags::INCOHERENT);
 
 /// A committed scene of one triangle mesh, whose buffers it reads where they lie.
 ///
@@ -100,13 +132,9 @@ impl<'m> EmbreeScene<'m> {
         };
         let scene =
             Self { handle, device, positions, positions_copied, _triangles: mesh.triangles.as_slice() };
-        let mut flags = 0;
-        if settings.robust {
-            flags |= sys::RTC_SCENE_FLAG_ROBUST;
-        }
-        if settings.compact {
-            flags |= sys::RTC_SCENE_FLAG_COMPACT;
-        }
+        let flag = |flag, set| if set { flag } else { RTCSceneFlags::NONE };
+        let flags =
+            flag(RTCSceneFlags::ROBUST, settings.robust) | flag(RTCSceneFlags::COMPACT, settings.compact);
         // SAFETY: the handle is live.
         unsafe {
             sys::rtcSetSceneFlags(scene.handle.as_ptr(), flags);
@@ -124,7 +152,7 @@ impl<'m> EmbreeScene<'m> {
 
     fn attach(&self, triangles: &[[u32; 3]], quality: Quality) -> Result<(), EmbreeError> {
         // SAFETY: the device is live.
-        let geometry = unsafe { sys::rtcNewGeometry(self.device.handle(), sys::RTC_GEOMETRY_TYPE_TRIANGLE) };
+        let geometry = unsafe { sys::rtcNewGeometry(self.device.handle(), RTCGeometryType::TRIANGLE) };
         if geometry.is_null() {
             self.device.check("making a geometry")?;
             return Err(no_handle("making a geometry"));
@@ -136,9 +164,9 @@ impl<'m> EmbreeScene<'m> {
         unsafe {
             sys::rtcSetSharedGeometryBuffer(
                 geometry,
-                sys::RTC_BUFFER_TYPE_VERTEX,
+                RTCBufferType::VERTEX,
                 0,
-                sys::RTC_FORMAT_FLOAT3,
+                RTCFormat::FLOAT3,
                 self.positions.as_ptr().cast(),
                 0,
                 size_of::<Vec3>(),
@@ -146,9 +174,9 @@ impl<'m> EmbreeScene<'m> {
             );
             sys::rtcSetSharedGeometryBuffer(
                 geometry,
-                sys::RTC_BUFFER_TYPE_INDEX,
+                RTCBufferType::INDEX,
                 0,
-                sys::RTC_FORMAT_UINT3,
+                RTCFormat::UINT3,
                 triangles.as_ptr().cast(),
                 0,
                 size_of::<[u32; 3]>(),
@@ -165,79 +193,55 @@ impl<'m> EmbreeScene<'m> {
     /// The nearest hit of one ray (`rtcIntersect1`).
     #[inline]
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
-        let mut rayhit = RayHit1::new(single(ray));
+        let mut rayhit = RTCRayHit { ray: single(ray), hit: RTCHit::default() };
         self.intersect1(&mut rayhit);
-        let hit = &rayhit.hit;
-        (hit.geom != sys::RTC_INVALID_GEOMETRY_ID).then_some(Hit {
-            t: rayhit.ray.tfar,
-            object: hit.prim,
-            u: hit.u,
-            v: hit.v,
-        })
+        hit(&rayhit)
     }
 
     /// `rtcIntersect1` as it is, for those who keep rays in Embree's layout.
     #[inline]
-    pub fn intersect1(&self, rayhit: &mut RayHit1) {
-        // SAFETY: the scene is committed; the ray-hit has the layout and alignment that Embree 4.0
-        // to 4.4 write to; the arguments are only read.
-        unsafe { sys::rtcIntersect1(self.handle.as_ptr(), rayhit, &raw const SINGLE_RAYS) };
+    pub fn intersect1(&self, rayhit: &mut RTCRayHit) {
+        // SAFETY: the scene is committed; the ray-hit has the alignment and the room that Embree 4.0 to 4.4 write to;
+        // the arguments are only read.
+        unsafe { sys::rtcIntersect1(self.handle.as_ptr(), rayhit, (&raw const INTERSECT).cast_mut()) };
     }
 
     /// Whether one ray hits anything (`rtcOccluded1`).
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         let mut ray = single(ray);
-        // SAFETY: as for `closest`.
-        unsafe { sys::rtcOccluded1(self.handle.as_ptr(), &raw mut ray, &raw const SINGLE_RAYS) };
+        // SAFETY: as for `intersect1`.
+        unsafe { sys::rtcOccluded1(self.handle.as_ptr(), &raw mut ray, (&raw const OCCLUDED).cast_mut()) };
         ray.tfar == f32::NEG_INFINITY
     }
 
-    /// The nearest hits of up to 16 rays that go the same way (`rtcIntersect16`).
+    /// The nearest hits of up to 16 rays (`rtcIntersect16`).
     ///
     /// # Panics
     /// If there are more than 16 rays, or fewer places for hits than rays.
     #[inline]
-    pub fn closest16(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    pub fn closest16(&self, rays: &[Ray], coherence: Coherence, hits: &mut [Option<Hit>]) {
         let mut packet = packet(rays);
-        let valid = Valid16::first(rays.len());
-        // SAFETY: as for `closest`, with the layout of 16; the mask is aligned to 64 bytes.
-        unsafe {
-            sys::rtcIntersect16(
-                &raw const valid,
-                self.handle.as_ptr(),
-                &raw mut packet,
-                &raw const COHERENT_RAYS,
-            );
-        }
+        let active = Active::first(rays.len());
+        let arguments = std::ptr::from_ref(coherence.intersect_arguments()).cast_mut();
+        // SAFETY: as for `intersect1`, with the layout of 16; the mask is aligned to 64 bytes.
+        unsafe { sys::rtcIntersect16(active.as_ptr(), self.handle.as_ptr(), &raw mut packet, arguments) };
         for (lane, hit) in hits[..rays.len()].iter_mut().enumerate() {
-            let found = &packet.hit;
-            *hit = (found.geom[lane] != sys::RTC_INVALID_GEOMETRY_ID).then_some(Hit {
-                t: packet.ray.tfar[lane],
-                object: found.prim[lane],
-                u: found.u[lane],
-                v: found.v[lane],
-            });
+            *hit = packet::hit(&packet, lane);
         }
     }
 
-    /// Whether up to 16 rays that go the same way hit anything (`rtcOccluded16`).
+    /// Whether up to 16 rays hit anything (`rtcOccluded16`).
     ///
     /// # Panics
     /// If there are more than 16 rays, or fewer places than rays.
     #[inline]
-    pub fn occluded16(&self, rays: &[Ray], occluded: &mut [bool]) {
+    pub fn occluded16(&self, rays: &[Ray], coherence: Coherence, occluded: &mut [bool]) {
         let mut packet = packet(rays).ray;
-        let valid = Valid16::first(rays.len());
+        let active = Active::first(rays.len());
+        let arguments = std::ptr::from_ref(coherence.occluded_arguments()).cast_mut();
         // SAFETY: as for `closest16`.
-        unsafe {
-            sys::rtcOccluded16(
-                &raw const valid,
-                self.handle.as_ptr(),
-                &raw mut packet,
-                &raw const COHERENT_RAYS,
-            );
-        }
+        unsafe { sys::rtcOccluded16(active.as_ptr(), self.handle.as_ptr(), &raw mut packet, arguments) };
         for (lane, occluded) in occluded[..rays.len()].iter_mut().enumerate() {
             *occluded = packet.tfar[lane] == f32::NEG_INFINITY;
         }
@@ -276,7 +280,7 @@ fn no_handle(doing: &'static str) -> EmbreeError {
 }
 
 /// Embree trusts indices; a wrong one would be read out of bounds.
-fn check_indices(mesh: &Mesh) -> Result<(), EmbreeError> {
+pub(crate) fn check_indices(mesh: &Mesh) -> Result<(), EmbreeError> {
     let positions = mesh.positions.len();
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         if let Some(&position) = corners.iter().find(|&&corner| corner as usize >= positions) {
@@ -297,19 +301,32 @@ fn readable_by_16_bytes(positions: &Vec<Vec3>) -> (Cow<'_, [Vec3]>, usize) {
     (Cow::Owned(padded), bytes)
 }
 
+/// A ray that sees every geometry.
 #[inline]
-fn single(ray: &Ray) -> Ray1 {
-    Ray1::new(ray.origin.to_array(), ray.direction.to_array(), ray.t_min, ray.t_max)
+pub(crate) fn single(ray: &Ray) -> RTCRay {
+    RTCRay {
+        org_x: ray.origin.x,
+        org_y: ray.origin.y,
+        org_z: ray.origin.z,
+        tnear: ray.t_min,
+        dir_x: ray.direction.x,
+        dir_y: ray.direction.y,
+        dir_z: ray.direction.z,
+        tfar: ray.t_max,
+        ..RTCRay::default()
+    }
 }
 
+/// What was found, if anything.
 #[inline]
-fn packet(rays: &[Ray]) -> RayHit16 {
-    assert!(rays.len() <= 16, "a packet holds 16 rays");
-    let mut packet = RayHit16::empty();
-    for (lane, ray) in rays.iter().enumerate() {
-        packet.set(lane, &single(ray));
-    }
-    packet
+pub(crate) fn hit(rayhit: &RTCRayHit) -> Option<Hit> {
+    let hit = &rayhit.hit;
+    (hit.geomID != RTC_INVALID_GEOMETRY_ID).then_some(Hit {
+        t: rayhit.ray.tfar,
+        object: hit.primID,
+        u: hit.u,
+        v: hit.v,
+    })
 }
 
 #[cfg(test)]

@@ -6,8 +6,9 @@ use accel::{
 use rayon::prelude::*;
 
 use crate::denormals::{Denormals, DenormalsGuard};
-use crate::device::{Device, EmbreeError};
-use crate::scene::{EmbreeScene, Quality, SceneSettings};
+use crate::device::{Device, EmbreeError, Isa};
+use crate::packet::WIDTH;
+use crate::scene::{Coherence, EmbreeScene, Quality, SceneSettings};
 
 /// Which of Embree's structures and queries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +19,7 @@ pub enum Variant {
     Robust,
     /// Single rays on a compact scene.
     Compact,
-    /// Coherent packets of 16 rays on a plain scene; rasters only.
+    /// Packets of 16 rays on a plain scene: 4 × 4 pixels of a raster, or 16 rays of a list as they come.
     Packet,
 }
 
@@ -37,6 +38,44 @@ impl Variant {
     }
 }
 
+/// Which packets are said to be coherent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PacketFlag {
+    /// Those of rasters.
+    #[default]
+    Rasters,
+    /// All.
+    On,
+    /// None.
+    Off,
+}
+
+impl PacketFlag {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Rasters, Self::On, Self::Off];
+
+    /// Its name as a setting.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Rasters => "rasters",
+            Self::On => "on",
+            Self::Off => "off",
+        }
+    }
+
+    /// The one of that name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|flag| flag.id() == id)
+    }
+
+    fn of(self, rays: &RaySet) -> Coherence {
+        match (self, rays) {
+            (Self::On, _) | (Self::Rasters, RaySet::Raster(_)) => Coherence::Coherent,
+            (Self::Off, _) | (Self::Rasters, RaySet::List(_)) => Coherence::Incoherent,
+        }
+    }
+}
+
 /// Builds Embree scenes of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EmbreeBuilder {
@@ -46,12 +85,22 @@ pub struct EmbreeBuilder {
     pub quality: Quality,
     /// Whether queries over sets of rays take denormal numbers as zero.
     pub denormals: Denormals,
+    /// The widest instructions it may use; none for the processor's best.
+    pub isa: Option<Isa>,
+    /// Which packets are said to be coherent; packets only.
+    pub coherent: PacketFlag,
 }
 
 impl EmbreeBuilder {
     /// With Embree's defaults.
     pub const fn new(variant: Variant) -> Self {
-        Self { variant, quality: Quality::Medium, denormals: Denormals::Keep }
+        Self {
+            variant,
+            quality: Quality::Medium,
+            denormals: Denormals::Keep,
+            isa: None,
+            coherent: PacketFlag::Rasters,
+        }
     }
 
     fn unsupported(&self, what: &str) -> BuildError {
@@ -65,45 +114,83 @@ impl Builder for EmbreeBuilder {
     }
 
     fn settings(&self) -> String {
-        format!("quality={} denormals={}", self.quality.id(), self.denormals.id())
+        let mut text = format!("quality={} denormals={}", self.quality.id(), self.denormals.id());
+        if let Some(isa) = self.isa {
+            text += &format!(" isa={}", isa.id());
+        }
+        if self.variant == Variant::Packet {
+            text += &format!(" coherent={}", self.coherent.id());
+        }
+        text
     }
 
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
         let Geometry::Triangles(mesh) = &scene.geometry else {
             return Err(self.unsupported("boxes: Embree has triangles"));
         };
-        if self.variant == Variant::Packet && need.general {
-            return Err(self.unsupported("lists of rays: coherent packets are for rasters"));
-        }
         let settings = SceneSettings {
             quality: self.quality,
             robust: self.variant == Variant::Robust,
             compact: self.variant == Variant::Compact,
         };
-        let scene = Device::new(rayon::current_num_threads())
-            .and_then(|device| EmbreeScene::new(device, mesh, settings))
-            .map_err(|error: EmbreeError| BuildError::Library {
+        let threads = rayon::current_num_threads();
+        let device = self.isa.map_or_else(|| Device::new(threads), |isa| Device::limited(threads, isa));
+        let scene = device.and_then(|device| EmbreeScene::new(device, mesh, settings)).map_err(
+            |error: EmbreeError| BuildError::Library {
                 structure: self.variant.id().to_owned(),
                 message: error.to_string(),
-            })?;
-        Ok(Box::new(Built { scene, packets: self.variant == Variant::Packet, denormals: self.denormals }))
+            },
+        )?;
+        let packets = (self.variant == Variant::Packet).then_some(self.coherent);
+        Ok(Box::new(Built { scene, packets, denormals: self.denormals }))
     }
 }
 
 struct Built<'s> {
     scene: EmbreeScene<'s>,
-    packets: bool,
+    /// Whether rays go in packets, and which of these are coherent.
+    packets: Option<PacketFlag>,
     denormals: Denormals,
 }
 
 /// Rows and columns of the tile of pixels that makes a packet.
 const TILE: usize = 4;
 
+/// Rays of a list traced by one task of the thread pool; whole packets.
+const CHUNK: usize = 4096;
+
 /// Rays made before the denormal mode is set for them, as their arithmetic is Rust's.
 const BATCH: usize = 64;
 
 impl Built<'_> {
-    /// Traces a raster in packets of 4 × 4 pixels with one of the scene's queries of up to 16 rays.
+    /// Traces a set in packets with one of the scene's queries of up to 16 rays.
+    fn packets<T: Copy + Default + Send>(
+        &self,
+        rays: &RaySet,
+        out: &mut [T],
+        query: impl Fn(&[Ray], &mut [T]) + Sync,
+    ) {
+        match rays {
+            RaySet::Raster(raster) => self.tiles(raster, out, query),
+            RaySet::List(rays) => self.runs(rays, out, query),
+        }
+    }
+
+    /// Traces a list in packets of 16 rays that follow one another; the last may hold fewer.
+    fn runs<T: Send>(&self, rays: &[Ray], out: &mut [T], query: impl Fn(&[Ray], &mut [T]) + Sync) {
+        let chunk = |(rays, out): (&[Ray], &mut [T])| {
+            for (rays, out) in rays.chunks(WIDTH).zip(out.chunks_mut(WIDTH)) {
+                self.in_mode(|| query(rays, out));
+            }
+        };
+        if rayon::current_num_threads() == 1 {
+            chunk((rays, out));
+        } else {
+            rays.par_chunks(CHUNK).zip(out.par_chunks_mut(CHUNK)).for_each(chunk);
+        }
+    }
+
+    /// Traces a raster in packets of 4 × 4 pixels.
     fn tiles<T: Copy + Default + Send>(
         &self,
         raster: &Raster,
@@ -186,21 +273,22 @@ impl Accel for Built<'_> {
 
     fn trace(&self, rays: &RaySet, hits: &mut [Option<Hit>]) {
         assert_eq!(rays.len(), hits.len(), "one place for each ray");
-        match rays {
-            RaySet::Raster(raster) if self.packets => {
-                self.tiles(raster, hits, |rays, hits| self.scene.closest16(rays, hits));
+        match self.packets.map(|flag| flag.of(rays)) {
+            Some(coherence) => {
+                self.packets(rays, hits, |rays, hits| self.scene.closest16(rays, coherence, hits));
             }
-            _ => self.singles(rays, hits, |ray| self.scene.closest(ray)),
+            None => self.singles(rays, hits, |ray| self.scene.closest(ray)),
         }
     }
 
     fn trace_occluded(&self, rays: &RaySet, occluded: &mut [bool]) {
         assert_eq!(rays.len(), occluded.len(), "one place for each ray");
-        match rays {
-            RaySet::Raster(raster) if self.packets => {
-                self.tiles(raster, occluded, |rays, occluded| self.scene.occluded16(rays, occluded));
+        match self.packets.map(|flag| flag.of(rays)) {
+            Some(coherence) => {
+                let query = |rays: &[Ray], out: &mut [bool]| self.scene.occluded16(rays, coherence, out);
+                self.packets(rays, occluded, query);
             }
-            _ => self.singles(rays, occluded, |ray| self.scene.occluded(ray)),
+            None => self.singles(rays, occluded, |ray| self.scene.occluded(ray)),
         }
     }
 

@@ -5,7 +5,7 @@ use super::{RegistryError, Settings};
 use accel::Builder;
 use accel::baseline::{Brute, MinMax, Sphere};
 #[cfg(feature = "embree")]
-use adapter_embree::{Denormals, EmbreeBuilder, Quality, Variant};
+use adapter_embree::{Denormals, EmbreeBuilder, Isa, PacketFlag, Quality, Variant, WrapperBuilder};
 use adapter_obvhs::{ObvhsBuilder, Preset, Variant as Tree};
 use bmssm::dense::BmssmDense;
 use bmssm::fast::Bmssm;
@@ -66,9 +66,13 @@ fn embree(variant: Variant, settings: &Settings) -> Result<Box<dyn Builder>, Reg
     let denormals = settings.read("denormals", "keep or flush", |id| {
         [Denormals::Keep, Denormals::Flush].into_iter().find(|d| d.id() == id)
     })?;
+    let isa = settings.read("isa", "sse2, sse4.2, avx, avx2 or avx512", Isa::from_id)?;
+    let coherent = settings.read("coherent", "rasters, on or off", PacketFlag::from_id)?;
     Ok(Box::new(EmbreeBuilder {
         quality: quality.unwrap_or(default.quality),
         denormals: denormals.unwrap_or(default.denormals),
+        isa,
+        coherent: coherent.unwrap_or(default.coherent),
         ..default
     }))
 }
@@ -90,6 +94,10 @@ const EMBREE: Entry = Entry {
     settings: &[
         ("quality", "build quality: low, medium or high"),
         ("denormals", "keep, or flush: denormal numbers count as zero in queries"),
+        (
+            "isa",
+            "the widest instructions it may use: sse2, sse4.2, avx, avx2 or avx512; the processor's best",
+        ),
     ],
     traits: Traits { counted: false, ..Traits::FOREIGN },
     variants: &["quality=high", "quality=low"],
@@ -225,10 +233,26 @@ static ALL: &[Entry] = &[
     #[cfg(feature = "embree")]
     Entry {
         id: "embree-packet",
-        description: "Embree, coherent packets of 16 rays (rtcIntersect16); rasters only",
-        traits: Traits { lists: false, ..EMBREE.traits },
-        variants: &[],
+        description: "Embree, packets of 16 rays (rtcIntersect16, rtcOccluded16)",
+        settings: &[
+            EMBREE.settings[0],
+            EMBREE.settings[1],
+            EMBREE.settings[2],
+            ("coherent", "packets that are said to be coherent: those of rasters, on for all, off for none"),
+        ],
+        variants: &["coherent=on", "coherent=off"],
         make: |s| embree(Variant::Packet, s),
+        ..EMBREE
+    },
+    #[cfg(feature = "embree")]
+    Entry {
+        id: "embree-rs",
+        description: "Embree's single rays through the safe API of embree4-rs, which has no test for occlusion",
+        source: "embree4-rs 0.0.16",
+        settings: &[],
+        traits: Traits { default: false, ..EMBREE.traits },
+        variants: &[],
+        make: |_| Ok(Box::new(WrapperBuilder)),
         ..EMBREE
     },
 ];
@@ -245,7 +269,7 @@ pub(super) fn all() -> &'static [Entry] {
 }
 
 pub(super) fn absent() -> Vec<Absent> {
-    let embree = ["embree", "embree-robust", "embree-compact", "embree-packet"];
+    let embree = ["embree", "embree-robust", "embree-compact", "embree-packet", "embree-rs"];
     let absent = embree.into_iter().filter(|id| !ALL.iter().any(|entry| entry.id == *id));
     absent.map(|id| Absent { id, reason: embree_missing() }).collect()
 }

@@ -1,5 +1,4 @@
 use super::*;
-use crate::rayhit::{Ray16, RayHit1};
 
 /// n × n squares of two triangles in the plane z = 1, number 2·(row·n + column) and the next.
 fn sheet(n: u32) -> Mesh {
@@ -58,14 +57,16 @@ fn packets_answer_as_single_rays_do() {
     let scene = build(&mesh, SceneSettings { robust: true, ..SceneSettings::default() });
     for count in [0, 1, 7, 15, 16] {
         let rays: Vec<Ray> = (0..count).map(|i| down(i as f32 * 0.61 - 0.5, 1.3)).collect();
-        let mut hits = vec![None; count];
-        let mut occluded = vec![false; count];
-        scene.closest16(&rays, &mut hits);
-        scene.occluded16(&rays, &mut occluded);
-        for (i, ray) in rays.iter().enumerate() {
-            let single = scene.closest(ray);
-            assert_eq!(hits[i].map(|h| (h.object, h.t)), single.map(|h| (h.object, h.t)));
-            assert_eq!(occluded[i], single.is_some());
+        for coherence in [Coherence::Coherent, Coherence::Incoherent] {
+            let mut hits = vec![None; count];
+            let mut occluded = vec![false; count];
+            scene.closest16(&rays, coherence, &mut hits);
+            scene.occluded16(&rays, coherence, &mut occluded);
+            for (i, ray) in rays.iter().enumerate() {
+                let single = scene.closest(ray);
+                assert_eq!(hits[i].map(|h| (h.object, h.t)), single.map(|h| (h.object, h.t)));
+                assert_eq!(occluded[i], single.is_some());
+            }
         }
     }
 }
@@ -75,7 +76,7 @@ fn packets_answer_as_single_rays_do() {
 fn a_packet_of_17_is_refused() {
     let mesh = sheet(1);
     let scene = build(&mesh, SceneSettings::default());
-    scene.closest16(&[down(0.2, 0.2); 17], &mut [None; 17]);
+    scene.closest16(&[down(0.2, 0.2); 17], Coherence::Coherent, &mut [None; 17]);
 }
 
 /// The words behind a struct that Embree is given.
@@ -87,39 +88,54 @@ struct Guarded<T> {
 
 const GUARD: [u32; 16] = [0x5afe_c0de; 16];
 
+/// A single ray-hit as its 24 words, of which 20 are fields.
+#[repr(C)]
+union Words {
+    rayhit: RTCRayHit,
+    words: [u32; 24],
+}
+
+/// The word of the ray-hit where Embree has put `instPrimID` since 4.3.
+const INST_PRIM_ID: usize = 20;
+
 #[test]
 fn embree_writes_nothing_behind_its_structs() {
     let mesh = sheet(4);
     let scene = build(&mesh, SceneSettings::default());
-    let arguments = &raw const SINGLE_RAYS;
+    let intersect = (&raw const INTERSECT).cast_mut();
+    let occluded = (&raw const OCCLUDED).cast_mut();
     let ray = single(&down(1.2, 1.2));
 
-    let mut one = Guarded { inner: RayHit1::new(ray), guard: GUARD };
-    // A value that Embree must overwrite on a hit if it knows the field.
-    one.inner.hit.inst_prim = [7];
+    let mut one = Guarded { inner: Words { words: [7; 24] }, guard: GUARD };
+    // SAFETY: a field of the union that is plain numbers, with all its words set before.
+    let rayhit = unsafe { &mut one.inner.rayhit };
+    (rayhit.ray, rayhit.hit) = (ray, RTCHit::default());
     // SAFETY: a committed scene and a ray-hit of the right layout inside a bigger struct.
-    unsafe { sys::rtcIntersect1(scene.handle(), &raw mut one.inner, arguments) };
-    assert_eq!(one.inner.hit.prim, 2 * (4 + 1));
-    assert_eq!(one.guard, GUARD);
+    unsafe { sys::rtcIntersect1(scene.handle(), (&raw mut one.inner).cast(), intersect) };
+    // SAFETY: every word is set, and any word is a number.
+    let (rayhit, words) = unsafe { (one.inner.rayhit, one.inner.words) };
+    assert_eq!(rayhit.hit.primID, 2 * (4 + 1));
     let (_, minor, _) = scene.version();
-    assert_eq!(one.inner.hit.inst_prim[0] != 7, minor >= 3, "instPrimID came with 4.3");
+    assert_eq!(words[INST_PRIM_ID] != 7, minor >= 3, "instPrimID came with 4.3");
+    assert_eq!(words[INST_PRIM_ID + 1..], [7; 3]);
+    assert_eq!(one.guard, GUARD);
 
     let mut shadow = Guarded { inner: ray, guard: GUARD };
     // SAFETY: as above.
-    unsafe { sys::rtcOccluded1(scene.handle(), &raw mut shadow.inner, arguments) };
+    unsafe { sys::rtcOccluded1(scene.handle(), &raw mut shadow.inner, occluded) };
     assert_eq!(shadow.inner.tfar, f32::NEG_INFINITY);
     assert_eq!(shadow.guard, GUARD);
 
-    let valid = Valid16::first(16);
+    let active = Active::first(16);
     let mut many = Guarded { inner: packet(&[down(1.2, 1.2); 16]), guard: GUARD };
     // SAFETY: as above, with an aligned mask.
-    unsafe { sys::rtcIntersect16(&raw const valid, scene.handle(), &raw mut many.inner, arguments) };
-    assert_eq!(many.inner.hit.prim, [10; 16]);
+    unsafe { sys::rtcIntersect16(active.as_ptr(), scene.handle(), &raw mut many.inner, intersect) };
+    assert_eq!(many.inner.hit.primID, [10; 16]);
     assert_eq!(many.guard, GUARD);
 
-    let mut shadows: Guarded<Ray16> = Guarded { inner: packet(&[down(1.2, 1.2); 16]).ray, guard: GUARD };
+    let mut shadows = Guarded { inner: packet(&[down(1.2, 1.2); 16]).ray, guard: GUARD };
     // SAFETY: as above.
-    unsafe { sys::rtcOccluded16(&raw const valid, scene.handle(), &raw mut shadows.inner, arguments) };
+    unsafe { sys::rtcOccluded16(active.as_ptr(), scene.handle(), &raw mut shadows.inner, occluded) };
     assert_eq!(shadows.inner.tfar, [f32::NEG_INFINITY; 16]);
     assert_eq!(shadows.guard, GUARD);
 }
