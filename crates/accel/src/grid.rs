@@ -105,7 +105,7 @@ impl Grid {
         let t_start = near.max(f64::from(ray.t_min));
         let t_end = far.min(f64::from(ray.t_max));
         // The law of objects lets a hit lie a little outside of its box's range of t.
-        let slack = crate::objects::T_SLACK * t_start.abs().max(t_end.abs());
+        let slack = crate::tolerance::T_SLACK * t_start.abs().max(t_end.abs());
         if t_start > t_end + slack {
             return None;
         }
@@ -131,7 +131,7 @@ impl Segment {
         if t == f64::INFINITY || self.t_span == 0.0 {
             return f32::INFINITY;
         }
-        let slack = 2.0 * crate::objects::T_SLACK * t.abs();
+        let slack = 2.0 * crate::tolerance::T_SLACK * t.abs();
         (((t - self.t_start + slack) / self.t_span) as f32) * (1.0 + 4.0 * f32::EPSILON) + 4.0 * MARGIN as f32
     }
 }

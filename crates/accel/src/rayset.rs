@@ -1,7 +1,5 @@
 //! Sets of rays: rasters and lists.
 
-use crate::packet::{Common, Packet, splat3};
-use crate::simd::Simd;
 use crate::{Ray, Vec3};
 
 /// How a raster's rays leave the image plane.
@@ -62,24 +60,6 @@ impl Raster {
         }
     }
 
-    /// [`Raster::ray`] in lanes, bit for bit, for pixel centres `x` = column + ½ and `y` = row + ½.
-    #[inline(always)]
-    pub fn packet<S: Simd>(&self, s: S, x: S::F, y: S::F) -> Packet<S> {
-        // Plain loops: a closure may be compiled without the instruction set.
-        let mut origin = splat3(s, self.origin);
-        let mut direction = splat3(s, self.forward);
-        let moved = match self.projection {
-            Projection::Parallel => &mut origin,
-            Projection::Perspective => &mut direction,
-        };
-        for (axis, moved) in moved.iter_mut().enumerate() {
-            let right = s.mul(s.splat(self.right[axis]), x);
-            let down = s.mul(s.splat(self.down[axis]), y);
-            *moved = s.add(*moved, s.add(right, down));
-        }
-        Packet { origin, direction, t_min: s.splat(0.0), t_max: s.splat(f32::INFINITY) }
-    }
-
     /// What all rays have in common.
     pub const fn common(&self) -> Common {
         match self.projection {
@@ -87,6 +67,15 @@ impl Raster {
             Projection::Perspective => Common::Origin(self.origin),
         }
     }
+}
+
+/// What all rays of a raster have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Common {
+    /// One direction: parallel projection.
+    Direction(Vec3),
+    /// One origin: perspective projection.
+    Origin(Vec3),
 }
 
 /// Rays to trace.

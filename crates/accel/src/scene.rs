@@ -1,13 +1,14 @@
 //! Scenes: what there is to be hit.
 
-use crate::kernel::{Corners, Kernel, KernelId, WithKernel};
-use crate::objects::{Boxes, Objects, Triangles};
 use crate::{Aabb, Vec3};
 use glam::Vec3A;
 use rayon::prelude::*;
 
 /// Triangles looked at by one task.
 const CHUNK: usize = 1 << 14;
+
+/// The three corners of a triangle.
+pub type Corners = [Vec3; 3];
 
 /// Indexed triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,29 +106,4 @@ pub struct Scene {
     pub geometry: Geometry,
     /// From where it is looked at.
     pub view: View,
-}
-
-/// Code that is generic over the objects of a scene.
-pub trait WithObjects<'s> {
-    /// What it computes.
-    type Out;
-    /// Does it with these objects.
-    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out;
-}
-
-impl Scene {
-    /// Calls `with` with the scene's objects, triangles being tested by `kernel`.
-    pub fn with_objects<'s, W: WithObjects<'s>>(&'s self, kernel: KernelId, with: W) -> W::Out {
-        struct OfMesh<'s, W>(&'s Mesh, W);
-        impl<'s, W: WithObjects<'s>> WithKernel for OfMesh<'s, W> {
-            type Out = W::Out;
-            fn kernel<K: Kernel>(self) -> W::Out {
-                self.1.objects(Triangles::<K>::new(self.0))
-            }
-        }
-        match &self.geometry {
-            Geometry::Triangles(mesh) => kernel.with(OfMesh(mesh, with)),
-            Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
-        }
-    }
 }

@@ -153,7 +153,7 @@ impl ImageSpace {
         };
         let mut near = [0.0; L];
         for lane in 0..L {
-            let least = t[lane] - t[lane].abs() * (self.t_error * 2.0 + 2.0 * accel::objects::T_SLACK);
+            let least = t[lane] - t[lane].abs() * (self.t_error * 2.0 + 2.0 * accel::tolerance::T_SLACK);
             let least = if least > 0.0 { least as f32 } else { 0.0 };
             // The next number down, if that isn't negative.
             near[lane] = f32::from_bits(least.to_bits().saturating_sub(1));

@@ -1,12 +1,13 @@
 //! `bmssm-dense` against brute force: identical hits, whatever the scene, the rays and the settings.
 
-use accel::baseline::Brute;
-use accel::simd::Level;
 use accel::{
-    Aabb, Accel, BuildError, Builder, Geometry, Group, Hit, KernelId, Mesh, Need, Projection, Raster, Ray,
-    RaySet, Scene, Vec3, View,
+    Aabb, Accel, BuildError, Builder, Geometry, Group, Hit, Mesh, Need, Projection, Raster, Ray, RaySet,
+    Scene, Vec3, View,
 };
+use baselines::Brute;
 use bmssm::dense::{Axis, BmssmDense};
+use lanes::Level;
+use primitives::KernelId;
 use proptest::prelude::*;
 
 const VIEW: View = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };

@@ -13,7 +13,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let scene = scene::load(&"bumps-2k".parse()?)?;
 
     // Any rays: this structure is built for all of them.
-    let builder = accel::baseline::MinMax { kernel: accel::KernelId::MollerTrumbore };
+    let builder = baselines::MinMax { kernel: primitives::KernelId::MollerTrumbore };
     let accel = builder.build(&scene, &Need::GENERAL)?;
     let ray = Ray::new(Vec3::new(0.0, 0.0, 9.0), Vec3::NEG_Z);
     let hit = accel.closest(&ray).ok_or("the ray meets the sphere")?;

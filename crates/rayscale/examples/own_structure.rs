@@ -3,14 +3,14 @@
 //!
 //! `cargo run --release --example own_structure`
 
-use accel::baseline::Brute;
-use accel::objects::Triangles;
-use accel::{Accel, Builder, Footprint, Geometry, Hit, KernelId, Mesh, Nearest, Need, Objects, Ray};
+use accel::{Accel, Builder, Footprint, Geometry, Hit, Mesh, Nearest, Need, Objects, Ray};
+use baselines::Brute;
+use primitives::{KernelId, Triangles};
 use rayscale::{rays, scene};
 use std::error::Error;
 
 struct Sorted<'s> {
-    objects: Triangles<'s, accel::kernel::MollerTrumbore>,
+    objects: Triangles<'s, primitives::kernel::MollerTrumbore>,
     order: Vec<(f32, u32)>, // the least x of an object's box, and the object; ascending
 }
 

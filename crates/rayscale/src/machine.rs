@@ -29,7 +29,7 @@ impl Machine {
         let release = release().unwrap_or_default();
         Self {
             cpu: field("/proc/cpuinfo", "model name").unwrap_or_else(|| "unknown".to_owned()),
-            isa: format!("{} {}", std::env::consts::ARCH, accel::simd::Level::best().id()),
+            isa: format!("{} {}", std::env::consts::ARCH, lanes::Level::best().id()),
             cores: std::thread::available_parallelism().map_or(1, usize::from),
             os: format!("{} {release}", std::env::consts::OS).trim().to_owned(),
             memory_bytes: memory().unwrap_or(0),

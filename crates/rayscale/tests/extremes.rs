@@ -1,9 +1,10 @@
 //! Every structure of the suite's own with every kernel on extreme scenes and rays: what brute
 //! force answers with that kernel, and with the exact kernel what the oracle says.
 
-use accel::baseline::Brute;
-use accel::exact::{Verdict, classify};
-use accel::{Accel, Builder, Geometry, Hit, KernelId, Need, RaySet, Scene};
+use accel::{Accel, Builder, Geometry, Hit, Need, RaySet, Scene};
+use baselines::Brute;
+use oracle::{Verdict, classify};
+use primitives::KernelId;
 use rayscale::check::oracle_of;
 use rayscale::rays::{RaysId, RaysSpec, generate};
 use rayscale::registry;

@@ -3,15 +3,15 @@
 
 use accel::dda::Walk;
 use accel::grid::Grid;
-use accel::kernel::Watertight;
-use accel::objects::Triangles;
-use accel::packet::{Lanes, Packet};
-use accel::simd::{Level, Row, Simd};
 use accel::{
-    Aabb, Accel, BuildError, Builder, Footprint, Geometry, Hit, Kernel, KernelId, Mesh, Nearest, Need,
-    Objects, Ray, Scene, Surface,
+    Aabb, Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Nearest, Need, Objects, Ray, Scene,
+    Surface,
 };
 use bmssm::general::{General, Settings};
+use lanes::packet::{Lanes, Packet};
+use lanes::{Level, PackedObjects, Row, Simd};
+use primitives::kernel::Watertight;
+use primitives::{Kernel, KernelId, Triangles};
 use rayscale::check::{leaks, oracle, sweep};
 use rayscale::rays::RaysId;
 use rayscale::registry::{Choice, ChosenKernel, Entry, Traits};
@@ -91,8 +91,6 @@ impl<'s> Rounded<'s> {
 }
 
 impl<'s> Objects for Rounded<'s> {
-    type Blocks = <Triangles<'s, Watertight> as Objects>::Blocks;
-
     fn len(&self) -> usize {
         self.triangles.len()
     }
@@ -110,6 +108,10 @@ impl<'s> Objects for Rounded<'s> {
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         self.triangles.intersect(id, ray, t_max)
     }
+}
+
+impl<'s> PackedObjects for Rounded<'s> {
+    type Blocks = <Triangles<'s, Watertight> as PackedObjects>::Blocks;
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         self.triangles.blocks(order)

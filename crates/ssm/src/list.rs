@@ -4,11 +4,12 @@ use crate::register::{Limit, register};
 use crate::{Resolution, Settings};
 use accel::dda::Walk;
 use accel::grid::Grid;
-use accel::simd::{Simd, Task};
 use accel::{
     Accel, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, Need, NoCount, Objects, Ray,
-    RaySet, Scene, WithObjects, for_each_ray,
+    RaySet, Scene, for_each_ray,
 };
+use lanes::{PackedObjects, Simd, Task};
+use primitives::WithObjects;
 
 const ID: &str = "ssm-list";
 
@@ -49,7 +50,7 @@ impl Builder for SsmList {
     }
 
     fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        scene.with_objects(self.settings.kernel, Build(self.settings))
+        primitives::with_objects(scene, self.settings.kernel, Build(self.settings))
     }
 }
 
@@ -57,7 +58,7 @@ struct Build(Settings);
 
 impl<'s> WithObjects<'s> for Build {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
-    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         if objects.len() <= usize::from(u16::MAX) {
             Ok(Box::new(Built::<O, u16>::new(objects, &self.0)?))
         } else {

@@ -1,9 +1,10 @@
 //! What both grids can be told.
 
 use crate::Resolution;
+use accel::BuildError;
 use accel::settings::{self, none_of};
-use accel::simd::Level;
-use accel::{BuildError, KernelId};
+use lanes::Level;
+use primitives::KernelId;
 
 /// Settings of a grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +41,8 @@ impl Settings {
     pub(crate) fn set(&mut self, id: &str, name: &str, value: &str) -> Result<(), BuildError> {
         let error = |problem| BuildError::Setting { structure: id.into(), setting: name.into(), problem };
         match name {
-            "kernel" => self.kernel = settings::kernel(value).map_err(error)?,
-            "simd" => self.simd = settings::simd(value).map_err(error)?,
+            "kernel" => self.kernel = KernelId::parse(value).map_err(error)?,
+            "simd" => self.simd = Level::parse(value).map_err(error)?,
             "resolution" => self.resolution = Resolution::parse_slices(value).map_err(error)?,
             "density" => self.resolution = Resolution::parse_density(value).map_err(error)?,
             "memory" => self.memory = Some(settings::bytes(value).map_err(error)?),

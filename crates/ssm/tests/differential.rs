@@ -2,9 +2,10 @@
 
 mod common;
 
-use accel::simd::Level;
-use accel::{Builder, Geometry, KernelId, Mesh, Need, Scene, Vec3};
+use accel::{Builder, Geometry, Mesh, Need, Scene, Vec3};
 use common::{boxes, cloud, compare, mesh, moved, rays, scene};
+use lanes::Level;
+use primitives::KernelId;
 use proptest::prelude::*;
 use ssm::{Resolution, Settings, Ssm, SsmList};
 

@@ -31,7 +31,7 @@ usage: cargo xtask <command>
   compare [ARGS]    set up, build, then run `rayscale compare ARGS`
   test              set up, then formatting, lints, tests, documentation
   structure         list which crates and modules import which; fail on a cycle
-  aarch64           the tests of accel, bmssm and ssm for aarch64, emulated on other processors
+  aarch64           the tests of the contract and the structures for aarch64, emulated on other processors
 
 Exit codes: 0 done, 1 a step failed, 2 bad usage.";
 

@@ -1,11 +1,11 @@
 //! What hangs on a tree's leaves.
 
-use accel::objects::{Boxes, Objects};
-use accel::{Mesh, vec_bytes};
+use accel::{Mesh, Objects, vec_bytes};
 use obvhs::aabb::Aabb;
 use obvhs::ray::Ray;
 use obvhs::rt_triangle::{RtCompressedTriangle, RtTriangle};
 use obvhs::triangle::Triangle;
+use primitives::Boxes;
 
 /// Objects in the order of a tree's leaves.
 pub trait Leaves: Send + Sync {

@@ -2,12 +2,12 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use accel::objects::Boxes;
 use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Need, Ray, Scene};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::cwbvh::CwBvh;
 use obvhs::rt_triangle::{RtCompressedTriangle, RtTriangle};
+use primitives::Boxes;
 
 use crate::leaves::{BoxLeaves, Leaves, Packed, TriangleLeaves, bounds_of, triangles_of};
 use crate::tree::Tree;

@@ -1,8 +1,7 @@
 //! Detail tests of the objects whose bits are set in a word.
 
-use accel::objects::Blocks;
-use accel::simd::Simd;
 use accel::{Nearest, Objects, Ray};
+use lanes::{Blocks, Simd};
 
 /// A way from a word of candidates to hits.
 pub trait Detail: Send + Sync {

@@ -72,8 +72,8 @@ impl Coverage {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use accel::objects::Boxes;
     use accel::{Aabb, Projection, Vec3};
+    use primitives::Boxes;
 
     #[test]
     fn objects_between_the_planes_or_beside_the_image_are_unseen() {

@@ -20,8 +20,10 @@ pub use settings::{Loop, Settings};
 pub use space::SpaceMaps;
 
 use accel::grid::Grid;
-use accel::{Accel, BuildError, Builder, Need, Objects, Scene, WithObjects};
+use accel::{Accel, BuildError, Builder, Need, Objects, Scene};
 use detail::{Appendix, Detail, Words};
+use lanes::PackedObjects;
+use primitives::WithObjects;
 use trace::Built;
 
 const ID: &str = "bmssm-dense";
@@ -53,7 +55,7 @@ impl Builder for BmssmDense {
     }
 
     fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        scene.with_objects(self.settings.kernel, Build(self.settings, *need))
+        primitives::with_objects(scene, self.settings.kernel, Build(self.settings, *need))
     }
 }
 
@@ -62,7 +64,7 @@ struct Build(Settings, Need);
 impl<'s> WithObjects<'s> for Build {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
 
-    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         let Self(settings, need) = self;
         let order: Vec<u32> = (0..objects.len() as u32).collect();
         match settings.walk {

@@ -109,7 +109,7 @@ impl fmt::Display for Resolution {
 mod tests {
     use super::*;
     use accel::Vec3;
-    use accel::objects::Boxes;
+    use primitives::Boxes;
 
     #[test]
     fn settings_are_read_and_written_alike() {

@@ -1,9 +1,9 @@
 //! What `bmssm-dense` can be told.
 
 use super::Resolution;
-use accel::KernelId;
 use accel::settings::{self, none_of};
-use accel::simd::Level;
+use lanes::Level;
+use primitives::KernelId;
 use std::fmt;
 
 /// How the bits of a word are taken.
@@ -63,8 +63,8 @@ impl Settings {
     /// Says what is wrong.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
         match name {
-            "kernel" => self.kernel = settings::kernel(value)?,
-            "simd" => self.simd = settings::simd(value)?,
+            "kernel" => self.kernel = KernelId::parse(value)?,
+            "simd" => self.simd = Level::parse(value)?,
             "resolution" => self.resolution = Resolution::parse(value)?,
             "loop" => {
                 let known = [Loop::Appendix, Loop::Words].into_iter().find(|walk| walk.id() == value);

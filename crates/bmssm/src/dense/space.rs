@@ -68,7 +68,7 @@ pub(super) fn bounds_of<O: Objects>(objects: &O) -> Aabb {
 mod tests {
     use super::*;
     use accel::Vec3;
-    use accel::objects::Boxes;
+    use primitives::Boxes;
 
     /// Skala 1993, §5: M_BMSSM = 3·N·p bits.
     #[test]

@@ -9,7 +9,9 @@ mod settings;
 pub use plan::Plan;
 pub use settings::Settings;
 
-use accel::{Accel, BuildError, Builder, Need, Objects, Scene, WithObjects};
+use accel::{Accel, BuildError, Builder, Need, Scene};
+use lanes::PackedObjects;
+use primitives::WithObjects;
 use serve::Built;
 
 const ID: &str = "bmssm";
@@ -50,7 +52,7 @@ impl Builder for Bmssm {
         if plan.bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
         }
-        Ok(scene.with_objects(self.settings.kernel, Build(plan)))
+        Ok(primitives::with_objects(scene, self.settings.kernel, Build(plan)))
     }
 }
 
@@ -59,7 +61,7 @@ struct Build(Plan);
 impl<'s> WithObjects<'s> for Build {
     type Out = Box<dyn Accel + 's>;
 
-    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         Box::new(Built::new(objects, self.0))
     }
 }

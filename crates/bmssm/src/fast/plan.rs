@@ -2,8 +2,8 @@
 
 use super::Settings;
 use crate::{general, raster};
-use accel::objects::BLOCK;
 use accel::{Need, Raster};
+use lanes::BLOCK;
 use std::fmt;
 
 /// What is built, and why. A structure for one image has no maps along the image's depth, as its rays need none
@@ -61,7 +61,7 @@ fn stretch(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> us
         "{} blocks of up to {BLOCK} objects with {} slices an axis, split by clusters of neighbours down to \
          {stretch} objects ({why}) and then object by object: the need names rays of any kind",
         objects.div_ceil(BLOCK),
-        accel::simd::path::SLICES
+        lanes::path::SLICES
     ));
     stretch
 }

@@ -3,11 +3,12 @@
 use super::Plan;
 use crate::general::General;
 use crate::raster::RasterMaps;
-use accel::{Accel, Counters, Footprint, Hit, Objects, Ray, RaySet};
+use accel::{Accel, Counters, Footprint, Hit, Ray, RaySet};
+use lanes::PackedObjects;
 use rayon::prelude::*;
 
 /// What a plan built.
-pub(super) struct Built<O: Objects> {
+pub(super) struct Built<O: PackedObjects> {
     plan: Plan,
     raster: Option<RasterMaps<O>>,
     general: Option<General<O>>,
@@ -16,7 +17,7 @@ pub(super) struct Built<O: Objects> {
 /// Rays of a list that one task of the thread pool traces.
 const CHUNK: usize = 2048;
 
-impl<O: Objects> Built<O> {
+impl<O: PackedObjects> Built<O> {
     pub fn new(objects: O, plan: Plan) -> Self {
         let raster = plan.raster.map(|(raster, settings)| RasterMaps::build(objects, &raster, settings));
         let general = plan.general.map(|settings| General::new(&objects, settings));
@@ -50,7 +51,7 @@ fn rays_of(rays: &RaySet, first: usize, len: usize) -> Vec<Ray> {
     (first..first + len).map(|i| rays.ray(i)).collect()
 }
 
-impl<O: Objects> Accel for Built<O> {
+impl<O: PackedObjects> Accel for Built<O> {
     fn closest(&self, ray: &Ray) -> Option<Hit> {
         if let (None, Some(maps)) = (&self.general, &self.raster) {
             return Accel::closest(maps, ray);

@@ -1,10 +1,9 @@
 //! What `bmssm` can be told. Every choice of the plan can be overridden.
 
 use crate::{general, raster};
-use accel::KernelId;
-use accel::objects::BLOCK;
 use accel::settings::{self, none_of, number};
-use accel::simd::Level;
+use lanes::{BLOCK, Level};
+use primitives::KernelId;
 use std::fmt;
 
 /// Settings of `bmssm`.
@@ -55,8 +54,8 @@ impl Settings {
     /// Says what is wrong.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
         match name {
-            "kernel" => self.kernel = settings::kernel(value)?,
-            "simd" => self.simd = settings::simd(value)?,
+            "kernel" => self.kernel = KernelId::parse(value)?,
+            "simd" => self.simd = Level::parse(value)?,
             "stretch" if value == "auto" => self.stretch = None,
             "stretch" => self.stretch = Some(number(value, BLOCK, general::MOST_STRETCH)?),
             "tile" => self.tile = number(value, 1, 16)?,

@@ -1,6 +1,7 @@
 use super::*;
-use accel::baseline::Brute;
-use accel::{Geometry, Group, KernelId, Mesh, Projection, Raster, Ray, RaySet, Vec3, View};
+use accel::{Geometry, Group, Mesh, Projection, Raster, Ray, RaySet, Vec3, View};
+use baselines::Brute;
+use primitives::KernelId;
 
 fn scene() -> Scene {
     let mut state = 11u32;

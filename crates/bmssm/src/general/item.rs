@@ -2,8 +2,8 @@
 
 use super::maps::UnitBox;
 use accel::grid::Grid;
-use accel::simd::{Level, Simd, Task};
 use accel::{Aabb, Objects, Vec3, filled, morton};
+use lanes::{Level, Simd, Task};
 use rayon::prelude::*;
 
 /// A box, the number of what is in it, and how many objects that is.

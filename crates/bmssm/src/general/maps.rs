@@ -2,9 +2,8 @@
 
 use super::item::Item;
 use accel::grid::MARGIN;
-use accel::objects::BLOCK;
-use accel::simd::Simd;
-use accel::simd::path::{Path, SLICES, TRIM};
+use lanes::path::{Path, SLICES, TRIM};
+use lanes::{BLOCK, Simd};
 
 /// By how much objects are registered wider, in slices: more than the rounding of a walk within the
 /// block, and more than [`TRIM`].

@@ -9,10 +9,9 @@ mod trace;
 mod tree;
 
 use accel::grid::Grid;
-use accel::objects::{Blocks, Objects};
-use accel::simd::{Level, Simd, Task};
 use accel::{Count, Footprint, Hit, NoCount, Ray, vec_bytes};
 use item::Scene;
+use lanes::{Blocks, Level, PackedObjects, Simd, Task};
 use maps::BlockMaps;
 use order::Order;
 use split::Shape;
@@ -36,7 +35,7 @@ pub struct Settings {
 }
 
 /// The maps of a scene for rays of any kind.
-pub struct General<O: Objects> {
+pub struct General<O: PackedObjects> {
     /// One cell over the scene: clips rays and gives the unit coordinates.
     frame: Grid,
     /// Maps of the blocks of objects.
@@ -48,7 +47,7 @@ pub struct General<O: Objects> {
     simd: Level,
 }
 
-impl<O: Objects> General<O> {
+impl<O: PackedObjects> General<O> {
     /// Builds the maps of all `objects`, in the current rayon pool.
     pub fn new(objects: &O, settings: Settings) -> Self {
         let simd = settings.simd;
@@ -83,13 +82,13 @@ impl<O: Objects> General<O> {
     }
 }
 
-struct Closest<'a, O: Objects> {
+struct Closest<'a, O: PackedObjects> {
     general: &'a General<O>,
     rays: &'a [Ray],
     hits: &'a mut [Option<Hit>],
 }
 
-impl<O: Objects> Task for Closest<'_, O> {
+impl<O: PackedObjects> Task for Closest<'_, O> {
     type Out = ();
     #[inline(always)]
     fn run<S: Simd>(self, s: S) {
@@ -100,13 +99,13 @@ impl<O: Objects> Task for Closest<'_, O> {
     }
 }
 
-struct Occluded<'a, O: Objects> {
+struct Occluded<'a, O: PackedObjects> {
     general: &'a General<O>,
     rays: &'a [Ray],
     occluded: &'a mut [bool],
 }
 
-impl<O: Objects> Task for Occluded<'_, O> {
+impl<O: PackedObjects> Task for Occluded<'_, O> {
     type Out = ();
     #[inline(always)]
     fn run<S: Simd>(self, s: S) {
@@ -118,14 +117,14 @@ impl<O: Objects> Task for Occluded<'_, O> {
     }
 }
 
-struct Counted<'a, O: Objects, C> {
+struct Counted<'a, O: PackedObjects, C> {
     general: &'a General<O>,
     rays: &'a [Ray],
     occlusion: bool,
     count: C,
 }
 
-impl<O: Objects, C: Count> Task for Counted<'_, O, C> {
+impl<O: PackedObjects, C: Count> Task for Counted<'_, O, C> {
     type Out = C;
     #[inline(always)]
     fn run<S: Simd>(mut self, s: S) -> C {

@@ -5,9 +5,8 @@ use super::Settings;
 use super::item::{Extremes, Item, is_large};
 use super::maps::BlockMaps;
 use super::split::{Divide, Left, Scratch, Shape};
-use accel::objects::{BLOCK, EMPTY_SLOT};
-use accel::simd::{Level, Simd, Task};
 use accel::{concatenated, filled, morton};
+use lanes::{BLOCK, EMPTY_SLOT, Level, Simd, Task};
 use rayon::prelude::*;
 
 /// The objects in order, block by block.

@@ -3,7 +3,7 @@
 
 use super::item::{Extremes, Item, whole};
 use super::maps::UnitBox;
-use accel::simd::{Simd, Task};
+use lanes::{Simd, Task};
 
 /// What splits weigh.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 use super::*;
-use accel::Aabb;
-use accel::baseline::Brute;
-use accel::objects::{BLOCK, EMPTY_SLOT};
-use accel::{Builder, Geometry, KernelId, Mesh, Need, RaySet, Scene, Vec3, View, WithObjects};
+use accel::{Aabb, Builder, Geometry, Mesh, Need, RaySet, Scene, Vec3, View};
+use baselines::Brute;
+use lanes::{BLOCK, EMPTY_SLOT, PackedObjects};
+use primitives::{KernelId, WithObjects};
 use proptest::prelude::*;
 
 fn scene(geometry: Geometry) -> Scene {
@@ -61,7 +61,7 @@ struct Differences<'a>(&'a [Ray], &'a [Option<Hit>], Level, usize);
 
 impl<'s> WithObjects<'s> for Differences<'_> {
     type Out = usize;
-    fn objects<O: Objects + 's>(self, objects: O) -> usize {
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> usize {
         let Self(rays, reference, simd, stretch) = self;
         let maps = General::new(&objects, Settings { simd, stretch });
         let mut hits = vec![None; rays.len()];
@@ -90,7 +90,8 @@ fn assert_no_differences(geometry: Geometry, rays: &[Ray]) -> usize {
         hits = reference.iter().flatten().count();
         for simd in Level::here() {
             for stretch in [128, MOST_STRETCH] {
-                let differences = scene.with_objects(kernel, Differences(rays, &reference, simd, stretch));
+                let differences =
+                    primitives::with_objects(&scene, kernel, Differences(rays, &reference, simd, stretch));
                 assert_eq!(differences, 0, "{kernel} {simd:?} {stretch}");
             }
         }
@@ -149,14 +150,14 @@ fn the_tree_holds_every_object_once_and_full_blocks() {
     struct Slots;
     impl<'s> WithObjects<'s> for Slots {
         type Out = (Vec<u32>, usize);
-        fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+        fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
             let maps = General::new(&objects, Settings { simd: Level::Portable, stretch: MOST_STRETCH });
             let slots = (0..maps.maps.len() * BLOCK).map(|slot| maps.objects.object(slot));
             (slots.filter(|object| *object != EMPTY_SLOT).collect(), maps.maps.len())
         }
     }
     let scene = scene(triangles(5, 20_000, 1.0, Vec3::ZERO));
-    let (mut objects, blocks) = scene.with_objects(KernelId::MollerTrumbore, Slots);
+    let (mut objects, blocks) = primitives::with_objects(&scene, KernelId::MollerTrumbore, Slots);
     objects.sort_unstable();
     assert!(objects.iter().copied().eq(0..20_000));
     assert!(blocks <= 20_000 / BLOCK + 20, "{blocks} blocks");

@@ -3,9 +3,8 @@
 use super::General;
 use super::tree::{Node, WIDTH};
 use accel::grid::Segment;
-use accel::objects::{Blocks, Objects};
-use accel::simd::{ROW, Simd};
 use accel::{Count, Nearest, Ray};
+use lanes::{Blocks, PackedObjects, ROW, Simd};
 
 /// A component of the way is at least this long, which is less than the margin of registration: so its
 /// reciprocal is finite and no product is NaN.
@@ -97,7 +96,7 @@ impl Stack {
     }
 }
 
-impl<O: Objects> General<O> {
+impl<O: PackedObjects> General<O> {
     /// The nearest hit, or for `ANY` some hit.
     #[inline(always)]
     pub(super) fn nearest<S: Simd, C: Count, const ANY: bool>(

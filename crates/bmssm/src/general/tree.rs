@@ -6,7 +6,7 @@
 use super::item::{Extremes, Item};
 use super::maps::UnitBox;
 use super::split::{Divide, Left, Scratch, Shape};
-use accel::simd::{Level, ROW, Row};
+use lanes::{Level, ROW, Row};
 use rayon::prelude::*;
 
 /// Most children of a node.

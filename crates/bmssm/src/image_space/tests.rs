@@ -138,7 +138,7 @@ proptest! {
                         pixels.rows.contains(&row) && pixels.cols.contains(&col),
                         "ray ({row}, {col}) meets {bounds:?}, but only {pixels:?} may"
                     );
-                    let first = near.max(0.0) * (1.0 - accel::objects::T_SLACK);
+                    let first = near.max(0.0) * (1.0 - accel::tolerance::T_SLACK);
                     prop_assert!(f64::from(pixels.near) <= first, "{pixels:?} but t = {near}");
                 }
             }

@@ -3,9 +3,8 @@
 use super::maps::{Block, GROUP, GROUPS, TileMaps};
 use super::order::{Shown, shown, sorted};
 use super::{RasterMaps, Settings, THICKNESS};
-use accel::objects::{BLOCK, EMPTY_SLOT};
-use accel::simd::{Simd, Task, prefetch};
-use accel::{Objects, Raster, concatenated, filled};
+use accel::{Raster, concatenated, filled};
+use lanes::{BLOCK, EMPTY_SLOT, PackedObjects, Simd, Task, prefetch};
 use rayon::prelude::*;
 
 /// Blocks handled by one task.
@@ -19,7 +18,7 @@ struct Part {
     ids: Vec<u32>,
 }
 
-impl<O: Objects> RasterMaps<O> {
+impl<O: PackedObjects> RasterMaps<O> {
     /// Builds the maps of `raster` in the current rayon pool.
     pub fn build(objects: O, raster: &Raster, settings: Settings) -> Self {
         let shown = shown(objects, raster, settings.simd);

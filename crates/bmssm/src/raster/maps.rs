@@ -1,11 +1,11 @@
 //! What is stored: a header and words for each block, a bit per block for each row and column of tiles.
 
-use accel::simd::ROW;
+use lanes::ROW;
 
 /// Slots that share a bound of depth.
 pub(super) const GROUP: usize = ROW;
 /// Such groups in a block.
-pub(super) const GROUPS: usize = accel::objects::BLOCK / GROUP;
+pub(super) const GROUPS: usize = lanes::BLOCK / GROUP;
 
 /// Header of a block of 64 objects. Its words lie side by side: R of its rows' slices, then
 /// S of its columns'.

@@ -17,9 +17,10 @@ mod serve;
 mod single;
 mod tile;
 
-use accel::simd::Level;
-use accel::{KernelId, Objects, Raster};
+use accel::Raster;
+use lanes::{Level, PackedObjects};
 use maps::{Block, TileMaps};
+use primitives::KernelId;
 
 /// Pixels across a slice, so that two slices meet in as many pixels as the widest lanes hold.
 pub const THICKNESS: u32 = 4;
@@ -47,7 +48,7 @@ impl Default for Settings {
 }
 
 /// The bit maps R and S of one raster, and the objects it can see.
-pub struct RasterMaps<O: Objects> {
+pub struct RasterMaps<O: PackedObjects> {
     objects: O,
     raster: Raster,
     settings: Settings,

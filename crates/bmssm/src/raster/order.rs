@@ -3,8 +3,8 @@
 use super::{Settings, THICKNESS};
 use crate::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
-use accel::simd::{Level, Simd, Task};
 use accel::{Aabb, Objects, Projection, Raster, concatenated};
+use lanes::{Level, Simd, Task};
 use rayon::prelude::*;
 
 /// Where the image shows an object.

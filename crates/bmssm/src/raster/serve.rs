@@ -1,9 +1,10 @@
 //! The maps of a raster behind [`Accel`].
 
 use super::RasterMaps;
-use accel::{Accel, Counters, Footprint, Hit, Objects, Raster, Ray, RaySet, for_each_ray};
+use accel::{Accel, Counters, Footprint, Hit, Raster, Ray, RaySet, for_each_ray};
+use lanes::PackedObjects;
 
-impl<O: Objects> Accel for RasterMaps<O> {
+impl<O: PackedObjects> Accel for RasterMaps<O> {
     fn closest(&self, ray: &Ray) -> Option<Hit> {
         let Some((row, col)) = self.pixel_of(ray) else {
             panic!("{ray:?} is no ray of the raster that was asked for");

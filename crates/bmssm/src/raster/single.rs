@@ -2,19 +2,18 @@
 
 use super::{RasterMaps, THICKNESS};
 use crate::image_space::ImageSpace;
-use accel::objects::{BLOCK, Blocks, EMPTY_SLOT};
-use accel::simd::{Simd, Task};
-use accel::{Footprint, Hit, Nearest, Objects, Raster, Ray, vec_bytes};
+use accel::{Footprint, Hit, Nearest, Raster, Ray, vec_bytes};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Simd, Task};
 use std::ops::Range;
 
 /// The ray of one pixel.
-struct Pixel<'a, O: Objects> {
+struct Pixel<'a, O: PackedObjects> {
     maps: &'a RasterMaps<O>,
     row: u32,
     col: u32,
 }
 
-impl<O: Objects> Task for Pixel<'_, O> {
+impl<O: PackedObjects> Task for Pixel<'_, O> {
     type Out = Nearest;
 
     #[inline(always)]
@@ -50,7 +49,7 @@ impl<O: Objects> Task for Pixel<'_, O> {
     }
 }
 
-impl<O: Objects> RasterMaps<O> {
+impl<O: PackedObjects> RasterMaps<O> {
     /// The nearest hit of one pixel.
     ///
     /// # Panics

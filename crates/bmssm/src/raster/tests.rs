@@ -1,10 +1,9 @@
 use super::*;
 use crate::fast;
-use accel::baseline::Brute;
-use accel::simd::{Simd, Task};
-use accel::{
-    Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Projection, RaySet, Scene, Vec3, View, WithObjects,
-};
+use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Projection, RaySet, Scene, Vec3, View};
+use baselines::Brute;
+use lanes::{PackedObjects, Simd, Task};
+use primitives::WithObjects;
 
 struct Random(u64);
 
@@ -236,7 +235,7 @@ fn only_what_can_be_seen_is_stored_and_counted() {
     struct Seen(Raster, Level);
     impl<'s> WithObjects<'s> for Seen {
         type Out = ();
-        fn objects<O: Objects + 's>(self, objects: O) {
+        fn objects<O: PackedObjects + 's>(self, objects: O) {
             let Self(raster, simd) = self;
             let maps = RasterMaps::build(objects, &raster, Settings { simd, ..Settings::default() });
             let covered: u32 = maps.coverage().iter().map(|w| w.count_ones()).sum();
@@ -254,6 +253,10 @@ fn only_what_can_be_seen_is_stored_and_counted() {
     }
     let raster = look(Projection::Parallel, [64, 64], Vec3::new(1.5, -2.2, 1.4), Vec3::ZERO, 0.4);
     for simd in Level::here() {
-        soup(3000, 0.05, 1.0, Vec3::ZERO).with_objects(KernelId::MollerTrumbore, Seen(raster, simd));
+        primitives::with_objects(
+            &soup(3000, 0.05, 1.0, Vec3::ZERO),
+            KernelId::MollerTrumbore,
+            Seen(raster, simd),
+        );
     }
 }

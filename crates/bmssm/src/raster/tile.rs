@@ -2,10 +2,9 @@
 
 use super::maps::GROUPS;
 use super::{RasterMaps, THICKNESS};
-use accel::objects::{BLOCK, Blocks};
-use accel::packet::{Common, NearestPacket};
-use accel::simd::{ROW, Row, Simd, Task};
-use accel::{Count, Counters, Hit, Nearest, NoCount, Objects};
+use accel::{Common, Count, Counters, Hit, Nearest, NoCount};
+use lanes::packet::{NearestPacket, Packet};
+use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Simd, Task};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -30,14 +29,14 @@ struct Tile<S: Simd, M> {
 }
 
 /// One row of tiles.
-struct Band<'a, O: Objects, C> {
+struct Band<'a, O: PackedObjects, C> {
     maps: &'a RasterMaps<O>,
     row: u32,
     hits: &'a mut [Option<Hit>],
     count: C,
 }
 
-impl<O: Objects> RasterMaps<O> {
+impl<O: PackedObjects> RasterMaps<O> {
     /// The nearest hit of every pixel, row by row.
     ///
     /// # Panics
@@ -80,7 +79,7 @@ impl<O: Objects> RasterMaps<O> {
     }
 }
 
-impl<O: Objects, C: Count> Task for Band<'_, O, C> {
+impl<O: PackedObjects, C: Count> Task for Band<'_, O, C> {
     type Out = C;
 
     #[inline(always)]
@@ -106,12 +105,12 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     const PACKETS: usize = CELL / S::LANES;
 
     #[inline(always)]
-    fn new<O: Objects>(s: S, maps: &RasterMaps<O>) -> Self
+    fn new<O: PackedObjects>(s: S, maps: &RasterMaps<O>) -> Self
     where
         O::Blocks: Blocks<Many<S> = M>,
     {
         let cells = (maps.settings.tile * maps.settings.tile) as usize;
-        let any = maps.geometry.many(s, &maps.raster.packet(s, s.splat(0.5), s.splat(0.5)));
+        let any = maps.geometry.many(s, &Packet::of_raster(s, &maps.raster, s.splat(0.5), s.splat(0.5)));
         Self {
             rows: 0..0,
             cols: 0..0,
@@ -125,7 +124,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
 
     /// Makes a cell's rays. Lanes outside the image are switched off.
     #[inline(always)]
-    fn open<O: Objects>(&mut self, s: S, maps: &RasterMaps<O>, cell: usize)
+    fn open<O: PackedObjects>(&mut self, s: S, maps: &RasterMaps<O>, cell: usize)
     where
         O::Blocks: Blocks<Many<S> = M>,
     {
@@ -144,7 +143,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                 }
             }
             let at = cell * Self::PACKETS + packet;
-            self.rays[at] = maps.geometry.many(s, &raster.packet(s, s.load(&x), s.load(&y)));
+            self.rays[at] = maps.geometry.many(s, &Packet::of_raster(s, raster, s.load(&x), s.load(&y)));
             self.best[at] = NearestPacket::new(s, s.load(&t));
         }
         self.open[cell] = true;
@@ -152,7 +151,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     }
 
     #[inline(always)]
-    fn trace<O: Objects, C: Count>(
+    fn trace<O: PackedObjects, C: Count>(
         &mut self,
         s: S,
         maps: &RasterMaps<O>,
@@ -210,7 +209,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     /// Tests a block's candidates in the pixels of one cell.
     #[allow(clippy::too_many_arguments)]
     #[inline(always)]
-    fn cell<O: Objects, C: Count>(
+    fn cell<O: PackedObjects, C: Count>(
         &mut self,
         s: S,
         maps: &RasterMaps<O>,
@@ -271,7 +270,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
 
     /// Decides the hits that tests left open.
     #[inline(always)]
-    fn settle<O: Objects>(&mut self, s: S, maps: &RasterMaps<O>)
+    fn settle<O: PackedObjects>(&mut self, s: S, maps: &RasterMaps<O>)
     where
         O::Blocks: Blocks<Many<S> = M>,
     {
@@ -286,7 +285,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
 
     /// Writes the hits to a row of tiles.
     #[inline(always)]
-    fn end<O: Objects>(&self, s: S, maps: &RasterMaps<O>, hits: &mut [Option<Hit>]) {
+    fn end<O: PackedObjects>(&self, s: S, maps: &RasterMaps<O>, hits: &mut [Option<Hit>]) {
         let width = maps.raster.cols as usize;
         let left = (self.cols.start * THICKNESS) as usize;
         let right = width.min((self.cols.end * THICKNESS) as usize);

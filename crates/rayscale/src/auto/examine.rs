@@ -4,10 +4,10 @@ use crate::answers::Answers;
 use crate::check::{judge, oracle_of};
 use crate::rayset::{Workload, pick, sample};
 use crate::record::Query;
-use crate::registry;
-use crate::units;
-use accel::exact::Oracle;
-use accel::{Accel, KernelId, RaySet, Scene};
+use crate::{registry, units};
+use accel::{Accel, RaySet, Scene};
+use oracle::Oracle;
+use primitives::KernelId;
 use std::fmt;
 
 /// Wrong answers among rays.

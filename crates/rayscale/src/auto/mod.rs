@@ -7,7 +7,8 @@ pub use examine::{Examiner, Wrong};
 
 use crate::rayset::Workload;
 use crate::registry::{Choice, ChosenKernel};
-use accel::{Geometry, KernelId, Scene};
+use accel::{Geometry, Scene};
+use primitives::KernelId;
 use std::borrow::Cow;
 
 /// Wrong answers in a million that are put up with where nobody says how many.
@@ -79,8 +80,7 @@ pub fn resolve<'c>(choices: &'c [Choice], scene: &Scene, workloads: &[Workload])
 mod tests {
     use super::*;
     use crate::record::Query;
-    use crate::registry;
-    use crate::testing;
+    use crate::{registry, testing};
     use accel::{Need, RaySet};
 
     fn aimed() -> (Scene, Vec<Workload>) {

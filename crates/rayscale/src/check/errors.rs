@@ -2,8 +2,8 @@
 
 use crate::record::Errors;
 use crate::stats::quantile;
-use accel::exact::{Oracle, Verdict, classify};
 use accel::{Geometry, Hit, RaySet, Scene};
+use oracle::{Oracle, Verdict, classify};
 use rayon::prelude::*;
 
 /// The oracle of a scene's triangles; of boxes it knows nothing.

@@ -5,8 +5,9 @@ use crate::measure::{guard, guarded_build};
 use crate::rays::{RaysError, RaysId, RaysSpec, generate};
 use crate::registry::Choice;
 use crate::scene::{self, SceneError};
-use accel::baseline::Brute;
-use accel::{Builder, Geometry, KernelId, Need, Scene};
+use accel::{Builder, Geometry, Need, Scene};
+use baselines::Brute;
+use primitives::KernelId;
 use serde::Serialize;
 
 /// The meshes: a bumpy sphere, and one of radius 2 far from the origin.

@@ -6,8 +6,8 @@ use crate::measure::{Session, guard, guarded_build, workloads};
 use crate::rays::{Query, RaysId};
 use crate::registry::Choice;
 use crate::scene::{self, SceneError};
-use accel::exact::{ExactHit, Verdict, classify};
 use accel::{Geometry, Hit, Need, RaySet, Scene};
+use oracle::{ExactHit, Verdict, classify};
 use rayon::prelude::*;
 use serde::Serialize;
 

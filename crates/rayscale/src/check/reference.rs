@@ -3,8 +3,9 @@
 use crate::answers::Answers;
 use crate::rayset::{pick, sample};
 use crate::record::Query;
-use accel::baseline::Brute;
-use accel::{Accel, Builder, KernelId, Need, RaySet, Scene};
+use accel::{Accel, Builder, Need, RaySet, Scene};
+use baselines::Brute;
+use primitives::KernelId;
 
 /// Right answers for some rays of a set.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,8 @@ use super::*;
 use crate::answers::Answers;
 use crate::record::Query;
 use crate::testing;
-use accel::{Accel, Footprint, Hit, KernelId, Need, Ray, RaySet, Scene};
+use accel::{Accel, Footprint, Hit, Need, Ray, RaySet, Scene};
+use primitives::KernelId;
 
 /// A structure that is right but for every 1000th ray of a trace.
 struct Faulty<'a> {

@@ -3,8 +3,8 @@
 use super::Error;
 use crate::auto::DEFAULT_MAX_ERROR;
 use crate::registry::{self, AUTO, Choice, ChosenKernel, StructureSpec};
-use accel::KernelId;
 use clap::Args;
+use primitives::KernelId;
 
 /// Which ray-triangle test, and how wrong it may be.
 #[derive(Clone, Debug, Default, Args)]

@@ -10,8 +10,9 @@ use crate::record::Record;
 use crate::registry::{self, Choice, StructureSpec};
 use crate::scene::{self, SceneSpec};
 use crate::units;
-use accel::{KernelId, Need, Scene};
+use accel::{Need, Scene};
 use clap::Args;
+use primitives::KernelId;
 use std::fmt::Write;
 use std::time::Duration;
 

@@ -10,9 +10,10 @@ use crate::check::{Reference, compare, judge, oracle_of};
 use crate::rayset::{Workload, sample, thin};
 use crate::record::{Cell, Check, Query};
 use crate::registry::Choice;
-use accel::baseline::Brute;
-use accel::exact::Oracle;
-use accel::{Accel, Builder, Counters, Geometry, KernelId, Need, RaySet, Scene};
+use accel::{Accel, Builder, Counters, Geometry, Need, RaySet, Scene};
+use baselines::Brute;
+use oracle::Oracle;
+use primitives::KernelId;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 

@@ -28,7 +28,7 @@ pub use scene::{Job, measure};
 pub use session::{Session, SessionError, begin, run, workloads};
 pub use watch::Watch;
 
-use accel::simd::Level;
+use lanes::Level;
 use std::time::Duration;
 
 /// How much is measured.

@@ -12,7 +12,8 @@ use crate::rayset::Workload;
 use crate::record::{Cell, FORMAT, Query, Record, Run, SceneEntry, Skipped, Structure, Suite};
 use crate::registry::{self, Choice};
 use crate::scene::{self, SceneError, SceneSpec};
-use accel::{KernelId, Scene};
+use accel::Scene;
+use primitives::KernelId;
 use std::time::SystemTime;
 
 /// What is to be measured.

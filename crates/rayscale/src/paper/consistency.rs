@@ -1,13 +1,12 @@
 //! Image consistency (Skala 1993, §2): objects with a 0 in V or W can't be hit by any ray of the image.
 
 use crate::rays;
-use accel::baseline::Brute;
-use accel::objects::Objects;
-use accel::{
-    Accel, BuildError, Builder, Geometry, Hit, KernelId, Need, Raster, RaySet, Scene, Vec3, WithObjects,
-};
+use accel::{Accel, BuildError, Builder, Geometry, Hit, Need, Raster, RaySet, Scene, Vec3};
+use baselines::Brute;
 use bmssm::dense::{BmssmDense, ImageMaps};
 use image::{Rgb, RgbImage};
+use lanes::PackedObjects;
+use primitives::{KernelId, WithObjects};
 use serde::{Deserialize, Serialize};
 
 /// An image of so many rows.
@@ -57,7 +56,7 @@ struct Maps(Raster);
 
 impl<'s> WithObjects<'s> for Maps {
     type Out = ImageMaps;
-    fn objects<O: Objects + 's>(self, objects: O) -> ImageMaps {
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> ImageMaps {
         ImageMaps::new(&objects, self.0)
     }
 }
@@ -79,7 +78,7 @@ pub fn evaluate(scene: &Scene, progress: &dyn Fn()) -> Result<(Consistency, RgbI
     for pixels in FALLING {
         let raster = rays::perspective(&scene.view, pixels, pixels);
         let hits = trace(scene, raster)?;
-        let coverage = scene.with_objects(KernelId::MollerTrumbore, Maps(raster)).coverage();
+        let coverage = primitives::with_objects(scene, KernelId::MollerTrumbore, Maps(raster)).coverage();
         let zeros = |map: &[u64]| out.objects - map.iter().map(|w| w.count_ones() as usize).sum::<usize>();
         let unseen = coverage.unseen();
         let mut visible = vec![false; out.objects];
@@ -164,7 +163,7 @@ mod tests {
     fn unseen_objects_are_hit_by_no_ray() {
         let scene = load(&"bumps-2k".parse().unwrap()).unwrap();
         let raster = rays::perspective(&scene.view, 24, 24);
-        let maps = scene.with_objects(KernelId::MollerTrumbore, Maps(raster));
+        let maps = primitives::with_objects(&scene, KernelId::MollerTrumbore, Maps(raster));
         let unseen = maps.coverage().unseen();
         assert!(!unseen.is_empty() && unseen.len() < 2000);
         assert!(holds(&scene, raster, &unseen).unwrap());

@@ -99,8 +99,8 @@ pub fn scene(boxes: Vec<Aabb>) -> Scene {
 mod tests {
     use super::super::printed::{OBJECTS, SIDES, TABLE_6};
     use super::*;
-    use accel::objects::Boxes;
     use bmssm::dense::ImageMaps;
+    use primitives::Boxes;
 
     #[test]
     fn squares_have_their_side_unless_clipped() {

@@ -1,8 +1,8 @@
 //! The loops that Tables 2–5 compare, without detail tests: a bounding volume tested for every object,
 //! and the words of two or three bit maps combined (Skala 1993, §2–4 and appendix).
 
-use accel::simd::{Simd, Task};
 use accel::{Aabb, Vec3};
+use lanes::{Simd, Task};
 use std::hint::black_box;
 
 /// Stands where the detail test would be: counts, and keeps the compiler from merging calls.
@@ -160,7 +160,7 @@ impl<F: FnOnce() -> T, T> Task for Wide<F> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use accel::simd::Level;
+    use lanes::Level;
 
     #[test]
     fn all_loops_meet_the_same_bits() {

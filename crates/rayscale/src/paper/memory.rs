@@ -2,8 +2,9 @@
 
 use super::experiment::scene;
 use super::secondary::boxes;
-use accel::{Aabb, Builder, Group, Need, Objects, objects::Boxes};
+use accel::{Aabb, Builder, Group, Need, Objects};
 use bmssm::dense::{BmssmDense, Resolution};
+use primitives::Boxes;
 use serde::{Deserialize, Serialize};
 use ssm::SsmList;
 

@@ -8,10 +8,10 @@ use super::timing::medians;
 use crate::scene::Random;
 use accel::dda::Walk;
 use accel::grid::Grid;
-use accel::objects::{Boxes, Objects};
-use accel::simd::Level;
-use accel::{Aabb, Ray, Vec3};
+use accel::{Aabb, Objects, Ray, Vec3};
 use bmssm::dense::SpaceMaps;
+use lanes::Level;
+use primitives::Boxes;
 use std::hint::black_box;
 
 /// Slices on each axis.

@@ -8,10 +8,10 @@ use super::loops::{
 use super::printed::{Cells, OBJECTS, SIDES, TABLE_2, TABLE_3, TABLE_4, TABLE_5};
 use super::table::{Table, grid};
 use super::timing::medians;
-use accel::objects::Boxes;
-use accel::simd::Level;
 use accel::{Aabb, Geometry, Projection, Raster, Vec3};
 use bmssm::dense::{Axis, ImageMaps};
+use lanes::Level;
+use primitives::Boxes;
 
 /// Seed of the scenes that are timed.
 const SEED: u64 = 1993;

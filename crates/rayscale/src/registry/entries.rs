@@ -1,12 +1,11 @@
 //! The structures.
 
-use super::{Absent, Entry, KERNEL, SIMD, Traits};
-use super::{RegistryError, Settings};
+use super::{Absent, Entry, KERNEL, RegistryError, SIMD, Settings, Traits};
 use accel::Builder;
-use accel::baseline::{Brute, MinMax, Sphere};
 #[cfg(feature = "embree")]
 use adapter_embree::{Denormals, EmbreeBuilder, Isa, PacketFlag, Quality, Variant, WrapperBuilder};
 use adapter_obvhs::{ObvhsBuilder, Preset, Variant as Tree};
+use baselines::{Brute, MinMax, Sphere};
 use bmssm::dense::BmssmDense;
 use bmssm::fast::Bmssm;
 use ssm::{Ssm, SsmList};

@@ -1,7 +1,8 @@
 //! Which ray-triangle test a chosen structure uses, and who chose it.
 
 use super::{Choice, Entry, RegistryError, Settings, StructureSpec};
-use accel::{Accel, BuildError, Builder, KernelId, Need, Scene};
+use accel::{Accel, BuildError, Builder, Need, Scene};
+use primitives::KernelId;
 use std::sync::Arc;
 
 /// The value of the setting `kernel` that leaves the choice to [`crate::auto`].

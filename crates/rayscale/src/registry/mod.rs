@@ -14,8 +14,9 @@ pub use kernel::{AUTO, ChosenKernel};
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 
 use crate::near::near;
-use accel::baseline::Brute;
-use accel::{Accel, Builder, KernelId, Need, RaySet, Scene};
+use accel::{Accel, Builder, Need, RaySet, Scene};
+use baselines::Brute;
+use primitives::KernelId;
 use std::sync::Arc;
 
 /// A structure that can be built.

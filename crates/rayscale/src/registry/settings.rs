@@ -2,8 +2,8 @@
 
 use super::RegistryError;
 use crate::near::near;
-use accel::KernelId;
-use accel::simd::Level;
+use lanes::Level;
+use primitives::KernelId;
 use std::str::FromStr;
 
 /// A setting that a structure understands: its name, and its values in a line.

@@ -2,8 +2,8 @@
 
 use crate::rayset::Workload;
 use crate::stats::quantile;
-use accel::exact::{ExactHit, Oracle, Verdict, classify};
 use accel::{Accel, RaySet};
+use oracle::{ExactHit, Oracle, Verdict, classify};
 use rayon::prelude::*;
 use serde::Serialize;
 

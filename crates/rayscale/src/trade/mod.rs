@@ -18,8 +18,9 @@ use crate::record::{Cell, SceneEntry, Skipped, Suite};
 use crate::registry::{self, Choice, StructureSpec};
 use crate::scene::{self, SceneError, SceneSpec};
 use crate::stats::geometric_mean;
-use accel::exact::Oracle;
-use accel::{Geometry, KernelId, Need, Scene};
+use accel::{Geometry, Need, Scene};
+use oracle::Oracle;
+use primitives::KernelId;
 use serde::Serialize;
 
 /// The ray sets that are judged: ordinary ones, and those that hunt for errors.

@@ -5,7 +5,9 @@
 //! answers closest-hit rays, any [`Accel`] built with [`Need::GENERAL`](accel::Need::GENERAL).
 //!
 //! ```
-//! use accel::{baseline::Brute, Builder, KernelId, Need};
+//! use accel::{Builder, Need};
+//! use baselines::Brute;
+//! use primitives::KernelId;
 //! use scenes::rays::{RaysId, RaysSpec, generate};
 //!
 //! let scene = scenes::load(&"unit-flat".parse()?)?;

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::{SceneSpec, load};
-use accel::baseline::Brute;
-use accel::{Builder, Geometry, Hit, KernelId, Need, Projection, Ray};
+use accel::{Builder, Geometry, Hit, Need, Projection, Ray};
+use baselines::Brute;
+use primitives::KernelId;
 
 fn scene(id: &str) -> Scene {
     load(&id.parse::<SceneSpec>().unwrap()).unwrap()

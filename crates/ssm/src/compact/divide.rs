@@ -6,8 +6,8 @@ use super::field::{BRICK, EDGE, Field, at_level};
 use super::order::GROUP;
 use super::{BRICK_BYTES, Cells};
 use crate::register::Limit;
-use accel::objects::EMPTY_SLOT;
 use accel::{BuildError, Objects};
+use lanes::EMPTY_SLOT;
 use rayon::prelude::*;
 use std::ops::Range;
 

@@ -10,13 +10,11 @@ mod way;
 use crate::register::{Limit, register};
 use crate::{Resolution, Settings};
 use accel::grid::Grid;
-use accel::objects::EMPTY_SLOT;
-use accel::{
-    Accel, Blocks, BuildError, Builder, Counters, Footprint, Hit, Need, Objects, Ray, RaySet, Scene,
-    WithObjects, vec_bytes,
-};
+use accel::{Accel, BuildError, Builder, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes};
 use field::{BRICK, Field};
+use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 use order::{GROUP, Order};
+use primitives::WithObjects;
 use rayon::prelude::*;
 
 const ID: &str = "ssm";
@@ -77,13 +75,13 @@ impl Builder for Ssm {
     }
 
     fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        scene.with_objects(self.settings.kernel, *self)
+        primitives::with_objects(scene, self.settings.kernel, *self)
     }
 }
 
 impl<'s> WithObjects<'s> for Ssm {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
-    fn objects<O: Objects + 's>(self, objects: O) -> Self::Out {
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         Ok(Box::new(Built::new(objects, &self)?))
     }
 }
@@ -107,7 +105,7 @@ impl Cells {
     }
 }
 
-struct Built<O: Objects> {
+struct Built<O: PackedObjects> {
     settings: Settings,
     grid: Grid,
     field: Field,
@@ -126,7 +124,7 @@ const CACHED: usize = 1 << 21;
 /// Bytes of a brick: a position for each cell, and bits.
 const BRICK_BYTES: u128 = 4 * BRICK as u128 + 8;
 
-impl<O: Objects> Built<O> {
+impl<O: PackedObjects> Built<O> {
     fn new(objects: O, ssm: &Ssm) -> Result<Self, BuildError> {
         let settings = &ssm.settings;
         let Order { slots, apart, bounds } = order::order(&objects);
@@ -164,7 +162,7 @@ impl<O: Objects> Built<O> {
     }
 }
 
-impl<O: Objects> Accel for Built<O> {
+impl<O: PackedObjects> Accel for Built<O> {
     fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.nearest::<false>(ray).hit()
     }

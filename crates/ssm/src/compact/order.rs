@@ -1,8 +1,7 @@
 //! The order in which objects are packed.
 
-use accel::objects::EMPTY_SLOT;
-use accel::simd::ROW;
 use accel::{Aabb, Objects};
+use lanes::{EMPTY_SLOT, ROW};
 use rayon::prelude::*;
 
 /// Objects tested together: what one reference of a cell stands for.
@@ -83,7 +82,7 @@ fn spread(v: u64) -> u64 {
 mod tests {
     use super::*;
     use accel::Vec3;
-    use accel::objects::Boxes;
+    use primitives::Boxes;
 
     #[test]
     fn bits_are_spread() {

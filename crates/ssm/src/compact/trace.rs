@@ -4,9 +4,8 @@ use super::field::Visit;
 use super::order::GROUP;
 use super::way::Way;
 use super::{Built, Cells, sort};
-use accel::objects::{BLOCK, Blocks};
-use accel::simd::{Simd, Task};
-use accel::{Count, Counters, Nearest, NoCount, Objects, Ray, RaySet};
+use accel::{Count, Counters, Nearest, NoCount, Ray, RaySet};
+use lanes::{BLOCK, Blocks, PackedObjects, Simd, Task};
 use rayon::prelude::*;
 
 /// Rays for which the instruction set is chosen once.
@@ -84,14 +83,14 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for Traveller<'_, S, B
 }
 
 /// Rays traced with one instruction set, for the nearest hit or any.
-struct Batch<'a, O: Objects, C, const ANY: bool> {
+struct Batch<'a, O: PackedObjects, C, const ANY: bool> {
     built: &'a Built<O>,
     rays: &'a [Ray],
     found: &'a mut [Nearest],
     count: &'a mut C,
 }
 
-impl<O: Objects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> {
+impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> {
     type Out = ();
 
     #[inline(always)]
@@ -125,7 +124,7 @@ impl<O: Objects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> {
     }
 }
 
-impl<O: Objects> Built<O> {
+impl<O: PackedObjects> Built<O> {
     fn batch<C: Count, const ANY: bool>(&self, rays: &[Ray], found: &mut [Nearest], count: &mut C) {
         self.settings.simd.run(Batch::<_, _, ANY> { built: self, rays, found, count });
     }

@@ -3,7 +3,7 @@
 
 use accel::Ray;
 use accel::grid::{Grid, MARGIN};
-use accel::objects::T_SLACK;
+use accel::tolerance::T_SLACK;
 
 /// The way is mapped into the lattice of cells shrunk by this on each side: its points never
 /// lie on the outer planes, so the walk needs no test for the last slice. Small

@@ -1,8 +1,9 @@
 //! Scenes, rays and the comparison with brute force.
 #![allow(dead_code)]
 
-use accel::baseline::Brute;
-use accel::{Aabb, Accel, Builder, Geometry, Hit, KernelId, Mesh, Need, Ray, RaySet, Scene, Vec3, View};
+use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Ray, RaySet, Scene, Vec3, View};
+use baselines::Brute;
+use primitives::KernelId;
 
 /// A small generator of numbers that look random.
 pub struct Random(pub u32);

@@ -1,7 +1,8 @@
 use super::*;
 use crate::WrapperBuilder;
-use accel::baseline::Brute;
-use accel::{Aabb, KernelId, Mesh, Projection, Vec3, View};
+use accel::{Aabb, Mesh, Projection, Vec3, View};
+use baselines::Brute;
+use primitives::KernelId;
 
 /// Numbers in [0, 1) from a fixed seed.
 struct Numbers(u64);

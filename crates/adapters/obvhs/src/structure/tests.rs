@@ -1,6 +1,7 @@
 use super::*;
-use accel::baseline::Brute;
-use accel::{Aabb, KernelId, Mesh, RaySet, Vec3, View};
+use accel::{Aabb, Mesh, RaySet, Vec3, View};
+use baselines::Brute;
+use primitives::KernelId;
 
 /// Numbers in [0, 1) from a fixed seed.
 struct Numbers(u64);

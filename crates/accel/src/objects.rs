@@ -1,0 +1,47 @@
+//! What a structure asks of the objects of a scene.
+
+#[cfg(doc)]
+use crate::tolerance::T_SLACK;
+use crate::{Aabb, Nearest, Ray, Surface};
+
+/// The objects of a scene, of any kind: a structure needs their boxes and a detail test
+/// (Skala 1993, §1, §7).
+///
+/// # The law
+/// `intersect` reports a hit at t only if the ray's line meets `bounds(id)` and t lies in
+/// the range of that meeting, give or take [`T_SLACK`]`·|t|`. The boxes are padded so that no hit worth having is
+/// refused. A structure that never loses an object whose box a ray meets therefore
+/// equals brute force bit for bit.
+pub trait Objects: Copy + Send + Sync {
+    /// How many there are, below `u32::MAX`.
+    fn len(&self) -> usize;
+
+    /// Whether there are none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The object's padded box: finite, and not empty.
+    ///
+    /// # Panics
+    /// If there is no such object.
+    fn bounds(&self, id: u32) -> Aabb;
+
+    /// Where the ray meets the object at t in `[ray.t_min, t_max]`; `ray.t_max` is not looked at.
+    ///
+    /// # Panics
+    /// If there is no such object.
+    fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface>;
+
+    /// Tests an object and takes its hit if that comes before `best`: at a lower t, or at the same reported t
+    /// by number unless the objects can tell their order more exactly.
+    ///
+    /// # Panics
+    /// If there is no such object.
+    #[inline]
+    fn closest(&self, id: u32, ray: &Ray, best: &mut Nearest) {
+        if let Some(surface) = self.intersect(id, ray, best.t) {
+            best.offer(id, surface);
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Brute force: every object tested for every ray.
+
+use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Need, Ray, RaySet, Scene};
+use lanes::{BLOCK, Blocks, Level, PackedObjects, Simd, Task};
+use primitives::{KernelId, WithObjects};
+use rayon::prelude::*;
+
+/// Builds the reference: no structure at all, every object tested for every ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Brute {
+    /// The ray-triangle test.
+    pub kernel: KernelId,
+    /// The instruction set.
+    pub simd: Level,
+}
+
+impl Brute {
+    /// Brute force by `kernel` on the best instruction set.
+    pub fn new(kernel: KernelId) -> Self {
+        Self { kernel, simd: Level::best() }
+    }
+}
+
+impl Builder for Brute {
+    fn id(&self) -> &str {
+        "brute"
+    }
+
+    fn settings(&self) -> String {
+        format!("kernel={} simd={}", self.kernel, self.simd.id())
+    }
+
+    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        struct Build(Level);
+        impl<'s> WithObjects<'s> for Build {
+            type Out = Box<dyn Accel + 's>;
+            fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
+                let order: Vec<u32> = (0..objects.len() as u32).collect();
+                Box::new(Built {
+                    blocks: objects.blocks(&order),
+                    objects: objects.len(),
+                    simd: self.0,
+                    _objects: objects,
+                })
+            }
+        }
+        Ok(primitives::with_objects(scene, self.kernel, Build(self.simd)))
+    }
+}
+
+struct Built<O: PackedObjects> {
+    blocks: O::Blocks,
+    objects: usize,
+    simd: Level,
+    _objects: O,
+}
+
+/// Rays that pass over the blocks together, so that each block is fetched once for all of them.
+const TOGETHER: usize = 128;
+
+struct Trace<'a, B> {
+    blocks: &'a B,
+    objects: usize,
+    rays: &'a [Ray],
+}
+
+impl<B: Blocks> Task for Trace<'_, B> {
+    type Out = Vec<Nearest>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> Vec<Nearest> {
+        let mut state: Vec<_> =
+            self.rays.iter().map(|ray| (self.blocks.one(ray), Nearest::new(ray.t_max))).collect();
+        for block in 0..self.objects.div_ceil(BLOCK) {
+            let mask = u64::MAX >> (BLOCK - (self.objects - block * BLOCK).min(BLOCK));
+            for (ray, best) in &mut state {
+                self.blocks.closest(s, block, mask, ray, best);
+            }
+        }
+        for (ray, best) in &mut state {
+            self.blocks.settle(ray, best);
+        }
+        state.into_iter().map(|(_, best)| best).collect()
+    }
+}
+
+impl<O: PackedObjects> Built<O> {
+    fn nearest(&self, rays: &[Ray]) -> Vec<Nearest> {
+        self.simd.run(Trace { blocks: &self.blocks, objects: self.objects, rays })
+    }
+}
+
+impl<O: PackedObjects> Accel for Built<O> {
+    fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.nearest(std::slice::from_ref(ray))[0].hit()
+    }
+
+    fn trace(&self, rays: &RaySet, hits: &mut [Option<Hit>]) {
+        assert_eq!(rays.len(), hits.len(), "one place for each ray");
+        hits.par_chunks_mut(TOGETHER).enumerate().for_each(|(chunk, hits)| {
+            let first = chunk * TOGETHER;
+            let rays: Vec<Ray> = (first..first + hits.len()).map(|i| rays.ray(i)).collect();
+            for (hit, nearest) in hits.iter_mut().zip(self.nearest(&rays)) {
+                *hit = nearest.hit();
+            }
+        });
+    }
+
+    fn trace_occluded(&self, rays: &RaySet, occluded: &mut [bool]) {
+        let mut hits = vec![None; rays.len()];
+        self.trace(rays, &mut hits);
+        for (occluded, hit) in occluded.iter_mut().zip(hits) {
+            *occluded = hit.is_some();
+        }
+    }
+
+    fn footprint(&self) -> Footprint {
+        Footprint::default().geometry_copy("blocks", self.blocks.bytes())
+    }
+}

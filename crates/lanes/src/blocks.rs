@@ -1,0 +1,97 @@
+//! Objects packed in blocks of 64: a structure with bit maps speaks of them in masks.
+
+use crate::packet::{NearestPacket, Packet};
+use crate::simd::{Row, Simd};
+use accel::{Common, Nearest, Objects, Ray};
+
+/// Objects in a block: one bit each of a 64-bit word.
+pub const BLOCK: usize = 64;
+
+/// In an order of objects: a slot that holds none.
+pub const EMPTY_SLOT: u32 = u32::MAX;
+
+/// Objects that can be reordered and packed.
+pub trait PackedObjects: Objects {
+    /// The objects reordered and packed by 64.
+    type Blocks: Blocks;
+
+    /// Copies the objects into blocks: slot i holds object `order[i]`, or nothing for [`EMPTY_SLOT`].
+    fn blocks(&self, order: &[u32]) -> Self::Blocks;
+}
+
+/// Objects packed in blocks of 64 slots, tested by mask.
+pub trait Blocks: Send + Sync {
+    /// One ray, prepared.
+    type One: Copy;
+    /// `LANES` rays, prepared.
+    type Many<S: Simd>: Copy;
+
+    /// Bytes on the heap: a copy of geometry.
+    fn bytes(&self) -> usize;
+
+    /// The object in a slot, or [`EMPTY_SLOT`].
+    fn object(&self, slot: usize) -> u32;
+
+    /// Prepares a ray.
+    fn one(&self, ray: &Ray) -> Self::One;
+
+    /// Prepares `LANES` rays.
+    fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Self::Many<S>;
+
+    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be postponed until [`Blocks::settle`].
+    fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest);
+
+    /// Whether any object of `block` whose bit is set in `mask` is hit at t in
+    /// `[ray.t_min, t_max]`.
+    fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
+        let mut best = Nearest::new(t_max);
+        // A hit that is postponed is a certain one.
+        self.closest(s, block, mask, ray, &mut best);
+        best.object != Nearest::NONE
+    }
+
+    /// Decides what [`Blocks::closest`] postponed: before it, `best` holds an upper bound of t, after it a hit. By default
+    /// nothing is postponed.
+    #[inline(always)]
+    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
+        let _ = (ray, best);
+    }
+
+    /// Tests the object of one slot with `LANES` rays. Hits may be postponed until [`Blocks::settle_packet`].
+    fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>);
+
+    /// Rows of values for each 16 slots that [`Blocks::prepare`] computes.
+    const PREPARED_ROWS: usize = 0;
+
+    /// Computes, for the 16 slots from `first` on (a multiple of 16), whatever is the same for all rays
+    /// with this in common.
+    ///
+    /// # Panics
+    /// If `rows` are fewer than [`Blocks::PREPARED_ROWS`].
+    #[inline(always)]
+    fn prepare<S: Simd>(&self, s: S, first: usize, common: &Common, rows: &mut [Row]) {
+        let _ = (s, first, common, rows);
+    }
+
+    /// [`Blocks::packet`] for rays with this in common, with the rows prepared for the slot's 16:
+    /// the same operations, so the same bits, but those that don't depend on the ray done before.
+    #[inline(always)]
+    fn packet_prepared<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        common: &Common,
+        rows: &[Row],
+        rays: &Self::Many<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let _ = (common, rows);
+        self.packet(s, slot, rays, best);
+    }
+
+    /// [`Blocks::settle`] for what [`Blocks::packet`] postponed.
+    #[inline(always)]
+    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+        let _ = (s, rays, best);
+    }
+}

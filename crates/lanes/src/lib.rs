@@ -1,0 +1,12 @@
+//! Lanes of `f32` whose instruction set is chosen at run time, and what is made of them: packets
+//! of rays, bit maps along a path, and objects packed in blocks of 64.
+
+mod blocks;
+mod one_by_one;
+pub mod packet;
+mod simd;
+
+pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects};
+pub use one_by_one::OneByOne;
+pub use simd::path;
+pub use simd::{Level, Portable, ROW, Row, Scalar, Simd, Task, prefetch};

@@ -1,0 +1,81 @@
+//! Blocks of objects that know no packed form.
+
+use crate::blocks::{BLOCK, Blocks, EMPTY_SLOT};
+use crate::packet::{Lanes, NearestPacket, Packet};
+use crate::simd::{ROW, Simd};
+use accel::Objects;
+use accel::{Nearest, Ray};
+
+/// Tests the objects of a block by [`Objects::intersect`], bit by bit.
+#[derive(Clone, Debug)]
+pub struct OneByOne<O> {
+    objects: O,
+    order: Vec<u32>,
+}
+
+impl<O: Objects> OneByOne<O> {
+    /// Slot i holds object `order[i]`.
+    pub fn new(objects: O, order: &[u32]) -> Self {
+        Self { objects, order: order.to_vec() }
+    }
+}
+
+impl<O: Objects> Blocks for OneByOne<O> {
+    type One = Ray;
+    type Many<S: Simd> = Packet<S>;
+
+    fn bytes(&self) -> usize {
+        accel::vec_bytes(&self.order)
+    }
+
+    #[inline]
+    fn object(&self, slot: usize) -> u32 {
+        self.order[slot]
+    }
+
+    #[inline(always)]
+    fn one(&self, ray: &Ray) -> Ray {
+        *ray
+    }
+
+    #[inline(always)]
+    fn many<S: Simd>(&self, _: S, rays: &Packet<S>) -> Packet<S> {
+        *rays
+    }
+
+    #[inline(always)]
+    fn closest<S: Simd>(&self, _: S, block: usize, mut mask: u64, ray: &Ray, best: &mut Nearest) {
+        while mask != 0 {
+            let slot = block * BLOCK + mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            let object = self.order[slot];
+            if object != EMPTY_SLOT {
+                self.objects.closest(object, ray, best);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Packet<S>, best: &mut NearestPacket<S>) {
+        let object = self.order[slot];
+        if object == EMPTY_SLOT {
+            return;
+        }
+        let mut before = [Nearest::new(0.0); ROW];
+        best.store(s, &mut before);
+        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
+        let mut wins = 0;
+        for lane in 0..S::LANES {
+            let mut nearest = before[lane];
+            if nearest.t == f32::NEG_INFINITY {
+                continue;
+            }
+            self.objects.closest(object, &rays.ray(s, lane), &mut nearest);
+            wins |= u32::from(nearest.object != before[lane].object) << lane;
+            (t[lane], u[lane], v[lane]) = (nearest.t, nearest.u, nearest.v);
+        }
+        let wins = s.mask(wins);
+        let lanes = Lanes { hit: wins, t: s.load(&t), u: s.load(&u), v: s.load(&v) };
+        best.take(s, wins, object, &lanes);
+    }
+}

@@ -1,0 +1,253 @@
+//! Several rays side by side in lanes.
+
+use crate::simd::{ROW, Simd};
+use accel::{Nearest, Projection, Raster, Ray, Surface, Vec3};
+
+/// Three coordinates of `LANES` vectors.
+pub type Vec3Lanes<S> = [<S as Simd>::F; 3];
+
+/// `LANES` rays, coordinate by coordinate.
+#[derive(Clone, Copy)]
+pub struct Packet<S: Simd> {
+    /// Origins.
+    pub origin: Vec3Lanes<S>,
+    /// Directions.
+    pub direction: Vec3Lanes<S>,
+    /// Least t of each ray.
+    pub t_min: S::F,
+    /// Greatest t of each ray; a nearest hit so far may limit it further.
+    pub t_max: S::F,
+}
+
+impl<S: Simd> Packet<S> {
+    /// The same ray in all lanes.
+    #[inline(always)]
+    pub fn splat(s: S, ray: &Ray) -> Self {
+        Self {
+            origin: splat3(s, ray.origin),
+            direction: splat3(s, ray.direction),
+            t_min: s.splat(ray.t_min),
+            t_max: s.splat(ray.t_max),
+        }
+    }
+
+    /// The first `LANES` of `rays`.
+    ///
+    /// # Panics
+    /// If there are fewer.
+    #[inline(always)]
+    pub fn load(s: S, rays: &[Ray]) -> Self {
+        let rays = &rays[..S::LANES];
+        let mut rows = [[0.0; ROW]; 8];
+        for (lane, ray) in rays.iter().enumerate() {
+            for axis in 0..3 {
+                rows[axis][lane] = ray.origin[axis];
+                rows[3 + axis][lane] = ray.direction[axis];
+            }
+            rows[6][lane] = ray.t_min;
+            rows[7][lane] = ray.t_max;
+        }
+        Self {
+            origin: [s.load(&rows[0]), s.load(&rows[1]), s.load(&rows[2])],
+            direction: [s.load(&rows[3]), s.load(&rows[4]), s.load(&rows[5])],
+            t_min: s.load(&rows[6]),
+            t_max: s.load(&rows[7]),
+        }
+    }
+
+    /// [`Raster::ray`] in lanes, bit for bit, for pixel centres `x` = column + ½ and `y` = row + ½.
+    #[inline(always)]
+    pub fn of_raster(s: S, raster: &Raster, x: S::F, y: S::F) -> Self {
+        // Plain loops: a closure may be compiled without the instruction set.
+        let mut origin = splat3(s, raster.origin);
+        let mut direction = splat3(s, raster.forward);
+        let moved = match raster.projection {
+            Projection::Parallel => &mut origin,
+            Projection::Perspective => &mut direction,
+        };
+        for (axis, moved) in moved.iter_mut().enumerate() {
+            let right = s.mul(s.splat(raster.right[axis]), x);
+            let down = s.mul(s.splat(raster.down[axis]), y);
+            *moved = s.add(*moved, s.add(right, down));
+        }
+        Self { origin, direction, t_min: s.splat(0.0), t_max: s.splat(f32::INFINITY) }
+    }
+
+    /// The ray of one lane. For paths that are taken rarely.
+    #[inline(always)]
+    pub fn ray(&self, s: S, lane: usize) -> Ray {
+        let [x, y, z] = self.origin;
+        let [dx, dy, dz] = self.direction;
+        Ray {
+            origin: Vec3::new(lane_of(s, x, lane), lane_of(s, y, lane), lane_of(s, z, lane)),
+            direction: Vec3::new(lane_of(s, dx, lane), lane_of(s, dy, lane), lane_of(s, dz, lane)),
+            t_min: lane_of(s, self.t_min, lane),
+            t_max: lane_of(s, self.t_max, lane),
+        }
+    }
+}
+
+/// A vector in all lanes.
+#[inline(always)]
+pub fn splat3<S: Simd>(s: S, v: Vec3) -> Vec3Lanes<S> {
+    [s.splat(v.x), s.splat(v.y), s.splat(v.z)]
+}
+
+/// One lane's value.
+#[inline(always)]
+pub fn lane_of<S: Simd>(s: S, v: S::F, lane: usize) -> f32 {
+    let mut lanes = [0.0; ROW];
+    s.store(v, &mut lanes);
+    lanes[lane]
+}
+
+/// The outcome of `LANES` tests at once.
+#[derive(Clone, Copy)]
+pub struct Lanes<S: Simd> {
+    /// Which lanes hit within their range of t; the others hold anything.
+    pub hit: S::M,
+    /// The rays' parameters.
+    pub t: S::F,
+    /// First surface coordinates.
+    pub u: S::F,
+    /// Second surface coordinates.
+    pub v: S::F,
+}
+
+impl<S: Simd> Lanes<S> {
+    /// The lanes as rows, to be read one by one.
+    #[inline(always)]
+    pub fn rows(&self, s: S) -> LaneRows {
+        let mut rows = LaneRows { t: [0.0; ROW], u: [0.0; ROW], v: [0.0; ROW] };
+        s.store(self.t, &mut rows.t);
+        s.store(self.u, &mut rows.u);
+        s.store(self.v, &mut rows.v);
+        rows
+    }
+}
+
+/// [`Lanes`] in memory.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneRows {
+    t: [f32; ROW],
+    u: [f32; ROW],
+    v: [f32; ROW],
+}
+
+impl LaneRows {
+    /// What one lane hit.
+    #[inline(always)]
+    pub fn surface(&self, lane: usize) -> Surface {
+        Surface { t: self.t[lane], u: self.u[lane], v: self.v[lane] }
+    }
+}
+
+/// What is known of `LANES` tests before they are decided.
+#[derive(Clone, Copy)]
+pub struct Bounds<S: Simd> {
+    /// Which lanes may hit within their range of t.
+    pub open: S::M,
+    /// Which of them certainly hit, at a normal t above the ray's `t_min`.
+    pub sure: S::M,
+    /// What hits does so at this t or above.
+    pub low: S::F,
+    /// What hits does so at this t or below.
+    pub high: S::F,
+}
+
+impl<S: Simd> Bounds<S> {
+    /// All lanes may hit at any t.
+    #[inline(always)]
+    pub fn unknown(s: S) -> Self {
+        let (low, high) = (s.splat(f32::NEG_INFINITY), s.splat(f32::INFINITY));
+        Self { open: s.mask(u32::MAX), sure: s.mask(0), low, high }
+    }
+}
+
+/// The nearest hits so far of `LANES` rays, some of which may be postponed; see [`Nearest`].
+#[derive(Clone, Copy)]
+pub struct NearestPacket<S: Simd> {
+    /// Each hit's t, or the ray's `t_max` (−∞ switches a lane off).
+    pub t: S::F,
+    /// Each hit's object, or [`Nearest::NONE`].
+    pub object: S::U,
+    /// First surface coordinates.
+    pub u: S::F,
+    /// Second surface coordinates.
+    pub v: S::F,
+}
+
+impl<S: Simd> NearestPacket<S> {
+    /// No hits yet.
+    #[inline(always)]
+    pub fn new(s: S, t_max: S::F) -> Self {
+        Self { t: t_max, object: s.splat_u(Nearest::NONE), u: s.splat(0.0), v: s.splat(0.0) }
+    }
+
+    /// Takes the hits on `object` that come before what is here.
+    #[inline(always)]
+    pub fn offer(&mut self, s: S, object: u32, lanes: &Lanes<S>) {
+        let id = s.splat_u(object);
+        let tie = s.and(s.eq(lanes.t, self.t), s.lt_u(id, self.object));
+        let wins = s.and(lanes.hit, s.or(s.lt(lanes.t, self.t), tie));
+        self.take(s, wins, object, lanes);
+    }
+
+    /// The lanes whose hits are postponed.
+    #[inline(always)]
+    pub fn postponed(&self, s: S) -> S::M {
+        s.eq(self.v, s.splat(Nearest::POSTPONED))
+    }
+
+    /// Takes and postpones those of the sure hits that come before what is here for certain, and tells which.
+    #[inline(always)]
+    pub fn postpone(&mut self, s: S, object: u32, sure: S::M, bounds: &Bounds<S>) -> S::M {
+        let low = s.select(self.postponed(s), self.u, self.t);
+        let wins = s.and(sure, s.lt(bounds.high, low));
+        let lanes = Lanes { hit: wins, t: bounds.high, u: bounds.low, v: s.splat(Nearest::POSTPONED) };
+        self.take(s, wins, object, &lanes);
+        wins
+    }
+
+    /// The lanes where `lanes` hits at the same t as another object before.
+    #[inline(always)]
+    pub fn ties(&self, s: S, object: u32, lanes: &Lanes<S>) -> S::M {
+        let id = s.splat_u(object);
+        let other = s.or(s.lt_u(id, self.object), s.lt_u(self.object, id));
+        let taken = s.lt_u(self.object, s.splat_u(Nearest::NONE));
+        s.and(s.and(lanes.hit, s.eq(lanes.t, self.t)), s.and(other, taken))
+    }
+
+    /// Takes the hits on `object` of the lanes `wins` over what is here.
+    #[inline(always)]
+    pub fn take(&mut self, s: S, wins: S::M, object: u32, lanes: &Lanes<S>) {
+        let id = s.splat_u(object);
+        self.t = s.select(wins, lanes.t, self.t);
+        self.u = s.select(wins, lanes.u, self.u);
+        self.v = s.select(wins, lanes.v, self.v);
+        self.object = s.select_u(wins, id, self.object);
+    }
+
+    /// Takes the hits of the lanes `wins`, each on its own object.
+    #[inline(always)]
+    pub fn take_each(&mut self, s: S, wins: S::M, objects: &[u32], lanes: &Lanes<S>) {
+        self.object = s.select_u(wins, s.load_u(objects), self.object);
+        self.t = s.select(wins, lanes.t, self.t);
+        self.u = s.select(wins, lanes.u, self.u);
+        self.v = s.select(wins, lanes.v, self.v);
+    }
+
+    /// Each lane's result, in the order of lanes.
+    #[inline(always)]
+    pub fn store(&self, s: S, to: &mut [Nearest]) {
+        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
+        let mut object = [0; ROW];
+        s.store(self.t, &mut t);
+        s.store(self.u, &mut u);
+        s.store(self.v, &mut v);
+        s.store_u(self.object, &mut object);
+        for (lane, nearest) in to.iter_mut().enumerate().take(S::LANES) {
+            *nearest = Nearest { t: t[lane], object: object[lane], u: u[lane], v: v[lane] };
+        }
+    }
+}

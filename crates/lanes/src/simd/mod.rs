@@ -1,0 +1,226 @@
+//! Lanes of `f32` at run time: one trait, a portable implementation and one for each
+//! instruction set, chosen once per batch of rays.
+//!
+//! Every operation is a single IEEE operation per lane (no fused multiply-add, no
+//! reciprocal estimates), so code written over [`Simd`] gives the same bits at every
+//! [`Level`].
+//!
+//! A [`Task`] and everything it calls down to the lane operations must be
+//! `#[inline(always)]`: what stays outside the function that enables the instruction
+//! set is compiled without it, and each operation becomes a call. Closures can't be so marked; where
+//! they hold lane operations (also inside `map` of an array) they are slow, though right.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+#[cfg(target_arch = "aarch64")]
+mod neon;
+pub mod path;
+mod portable;
+mod scalar;
+
+pub use portable::Portable;
+pub use scalar::Scalar;
+
+use accel::settings::none_of;
+
+/// Lanes in a row of packed geometry: the widest implementation's width, a multiple of all.
+pub const ROW: usize = 16;
+
+/// A row of packed geometry, aligned for the widest load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Row(pub [f32; ROW]);
+
+/// Asks for the memory at a place that is soon to be read, where there is an instruction for it.
+#[inline(always)]
+pub fn prefetch<T>(place: &T) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: SSE, which every x86-64 has, and a hint that reads nothing.
+    unsafe {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(place).cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
+}
+
+/// Proof that an instruction set is present, and its operations.
+pub trait Simd: Copy + Send + Sync + 'static {
+    /// Number of lanes; divides [`ROW`].
+    const LANES: usize;
+    /// `LANES` floats.
+    type F: Copy;
+    /// `LANES` truth values.
+    type M: Copy;
+    /// `LANES` unsigned integers.
+    type U: Copy;
+
+    /// All lanes `v`.
+    fn splat(self, v: f32) -> Self::F;
+    /// The first `LANES` floats of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn load(self, from: &[f32]) -> Self::F;
+    /// Writes the lanes to the front of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter than `LANES`.
+    fn store(self, v: Self::F, to: &mut [f32]);
+    /// a + b
+    fn add(self, a: Self::F, b: Self::F) -> Self::F;
+    /// a − b
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F;
+    /// a · b
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F;
+    /// a / b
+    fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    /// |a|
+    fn abs(self, a: Self::F) -> Self::F;
+    /// The lesser; which of the operands where one is NaN or both are zero is not said.
+    fn min(self, a: Self::F, b: Self::F) -> Self::F;
+    /// The greater; which of the operands where one is NaN or both are zero is not said.
+    fn max(self, a: Self::F, b: Self::F) -> Self::F;
+    /// a < b, false on NaN
+    fn lt(self, a: Self::F, b: Self::F) -> Self::M;
+    /// a ≤ b, false on NaN
+    fn le(self, a: Self::F, b: Self::F) -> Self::M;
+    /// a = b, false on NaN
+    fn eq(self, a: Self::F, b: Self::F) -> Self::M;
+    /// Both.
+    fn and(self, a: Self::M, b: Self::M) -> Self::M;
+    /// Either.
+    fn or(self, a: Self::M, b: Self::M) -> Self::M;
+    /// Where `m`: a, elsewhere b.
+    fn select(self, m: Self::M, a: Self::F, b: Self::F) -> Self::F;
+    /// Bit i is lane i.
+    fn bits(self, m: Self::M) -> u32;
+    /// Lane i is bit i; bits from `LANES` on are ignored.
+    fn mask(self, bits: u32) -> Self::M;
+    /// All lanes `v`.
+    fn splat_u(self, v: u32) -> Self::U;
+    /// Where `m`: a, elsewhere b.
+    fn select_u(self, m: Self::M, a: Self::U, b: Self::U) -> Self::U;
+    /// a < b, unsigned
+    fn lt_u(self, a: Self::U, b: Self::U) -> Self::M;
+    /// The first `LANES` integers of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn load_u(self, from: &[u32]) -> Self::U;
+    /// Writes the lanes to the front of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter than `LANES`.
+    fn store_u(self, v: Self::U, to: &mut [u32]);
+    /// The first `LANES` short integers of a slice as floats, which is exact.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn load_short(self, from: &[u16]) -> Self::F;
+
+    /// The bits that a path through three maps meets; see [`path::Path`].
+    #[inline(always)]
+    fn path_union(self, maps: [&[u64; path::SLICES]; 3], path: &path::Path) -> u64 {
+        path::union(maps, path)
+    }
+}
+
+/// Work that is compiled once for each instruction set.
+pub trait Task {
+    /// What it computes.
+    type Out;
+    /// Does the work. Must be `#[inline(always)]`.
+    fn run<S: Simd>(self, s: S) -> Self::Out;
+}
+
+/// An instruction set that may be asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Level {
+    /// Plain Rust, on every machine.
+    Portable,
+    /// x86-64 with AVX2.
+    Avx2,
+    /// x86-64 with AVX-512 F, BW, DQ and VL.
+    Avx512,
+    /// aarch64, where it is always present.
+    Neon,
+}
+
+impl Level {
+    /// All levels there are, narrowest first.
+    pub const ALL: [Self; 4] = [Self::Portable, Self::Neon, Self::Avx2, Self::Avx512];
+
+    /// Name as used in settings and records.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Portable => "portable",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+            Self::Neon => "neon",
+        }
+    }
+
+    /// The level of that name.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|level| level.id() == id)
+    }
+
+    /// A setting's value: the level of that name, if this machine has it.
+    ///
+    /// # Errors
+    /// There is none of that name here; the text says which there are.
+    pub fn parse(value: &str) -> Result<Self, String> {
+        let level = Self::from_id(value).filter(|level| level.available());
+        level.ok_or_else(|| none_of(value, Self::here().map(Self::id)))
+    }
+
+    /// Whether this machine has it.
+    pub fn available(self) -> bool {
+        match self {
+            Self::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+            }
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => true,
+            #[allow(unreachable_patterns)]
+            _ => false,
+        }
+    }
+
+    /// The levels of this machine, narrowest first.
+    pub fn here() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|level| level.available())
+    }
+
+    /// The widest level of this machine.
+    pub fn best() -> Self {
+        Self::here().last().unwrap_or(Self::Portable)
+    }
+
+    /// Runs `task` at this level; where the machine lacks it, portably.
+    #[inline]
+    pub fn run<T: Task>(self, task: T) -> T::Out {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 if self.available() => avx512::run(task),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 if self.available() => avx2::run(task),
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => neon::run(task),
+            _ => task.run(Portable),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,142 @@
+use super::*;
+
+/// Applies every operation to rows of awkward values and gathers the bits.
+struct Everything;
+
+impl Task for Everything {
+    type Out = Vec<u32>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> Vec<u32> {
+        let values = [0.0, -0.0, 1.0, -1.5, 1e-40, 3e38, -3e38, f32::INFINITY];
+        let a: [f32; ROW] = std::array::from_fn(|i| values[i % 8]);
+        let b: [f32; ROW] = std::array::from_fn(|i| values[(i * 3 + i / 8 + 1) % 8]);
+        let mut out = Vec::new();
+        let mut masks = [0u32; 5];
+        for at in (0..ROW).step_by(S::LANES) {
+            let (x, y) = (s.load(&a[at..]), s.load(&b[at..]));
+            let lt = s.lt(x, y);
+            for (mask, m) in masks.iter_mut().zip([
+                lt,
+                s.le(x, y),
+                s.and(s.eq(x, y), s.le(x, y)),
+                s.or(lt, s.mask(0x5555 >> at)),
+                s.lt_u(s.splat_u(0x7fff_ffff), s.select_u(lt, s.splat_u(0x8000_0000), s.splat_u(1))),
+            ]) {
+                *mask |= s.bits(m) << at;
+            }
+            let computed = [
+                s.add(x, y),
+                s.sub(x, y),
+                s.mul(x, y),
+                s.abs(s.div(x, y)),
+                s.abs(s.min(x, y)),
+                s.abs(s.max(x, y)),
+                s.select(lt, x, s.splat(7.0)),
+            ];
+            for v in computed {
+                let mut lanes = [0.0; ROW];
+                s.store(v, &mut lanes);
+                // NaNs may differ in sign and payload between instruction sets.
+                out.extend(lanes[..S::LANES].iter().map(|l| if l.is_nan() { u32::MAX } else { l.to_bits() }));
+            }
+            let short: [u16; ROW] = std::array::from_fn(|i| (i * 4099) as u16);
+            let wide: [u32; ROW] = std::array::from_fn(|i| 0xf000_0000 + i as u32);
+            let mut floats = [0.0; ROW];
+            s.store(s.load_short(&short[at..]), &mut floats);
+            out.extend(floats[..S::LANES].iter().map(|l| l.to_bits()));
+            let mut ids = [0; ROW];
+            s.store_u(s.load_u(&wide[at..]), &mut ids);
+            out.extend(&ids[..S::LANES]);
+            s.store_u(s.select_u(lt, s.splat_u(1), s.splat_u(0)), &mut ids);
+            out.extend(&ids[..S::LANES].iter().map(|id| id + 10).collect::<Vec<_>>());
+        }
+        out.sort_unstable();
+        out.extend(masks);
+        out
+    }
+}
+
+#[test]
+fn all_levels_compute_the_same_bits() {
+    let reference = Everything.run(Portable);
+    assert!(reference.len() > 100);
+    assert_eq!(Everything.run(Scalar), reference, "scalar");
+    for level in Level::here() {
+        assert_eq!(level.run(Everything), reference, "{level:?}");
+    }
+}
+
+#[test]
+fn levels_go_by_name() {
+    for level in Level::ALL {
+        assert_eq!(Level::from_id(level.id()), Some(level));
+    }
+    assert!(Level::best().available());
+}
+
+mod paths {
+    use super::super::path::{Path, SLICES};
+    use super::*;
+    use proptest::prelude::*;
+
+    struct Union<'a>(&'a [[u64; SLICES]; 3], &'a Path);
+
+    impl Task for Union<'_> {
+        type Out = u64;
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> u64 {
+            let [a, b, c] = self.0;
+            s.path_union([a, b, c], self.1)
+        }
+    }
+
+    proptest! {
+        /// Every cell that the path passes contributes its bits, at every level; and where all words are
+        /// different single bits, nothing farther than a slice away does.
+        #[test]
+        fn the_union_holds_the_cells_of_the_path(
+            low in -0.01f32..8.0,
+            length in 0f32..8.0,
+            start in prop::array::uniform2(-0.5f32..8.5),
+            slope in prop::array::uniform2(-1f32..=1.0),
+            seed: u64,
+        ) {
+            let path = Path { low, high: (low + length).min(8.01), start, slope };
+            let mut state = seed;
+            let mut word = || {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                state ^ state >> 29
+            };
+            let maps = [0; 3].map(|_| [0; SLICES].map(|_| word()));
+            let slice = |p: f32| (p.max(0.0) as usize).min(SLICES - 1);
+            let mut passed = 0;
+            let mut near = 0;
+            for i in 0..=400 {
+                let along = path.low + (path.high - path.low) * i as f32 / 400.0;
+                let at = |k: usize| path.start[k] + path.slope[k] * (along - path.low);
+                // Positions within the trim of a boundary may count to either side.
+                let clear = |p: f32| (p - p.round()).abs() > 0.02;
+                if clear(along) && clear(at(0)) && clear(at(1)) {
+                    passed |= maps[0][slice(along)] & maps[1][slice(at(0))] & maps[2][slice(at(1))];
+                }
+                for (da, db, dc) in (0..27).map(|k| (k % 3, k / 3 % 3, k / 9)) {
+                    let by = |p: f32, d: i32| slice(p + d as f32 - 1.0);
+                    near |= maps[0][by(along, da)] & maps[1][by(at(0), db)] & maps[2][by(at(1), dc)];
+                }
+            }
+            let reference = Union(&maps, &path).run(Portable);
+            prop_assert_eq!(passed & !reference, 0);
+            prop_assert_eq!(reference & !near, 0);
+            for level in Level::here() {
+                prop_assert_eq!(level.run(Union(&maps, &path)), reference, "{:?}", level);
+            }
+        }
+    }
+}
+
+#[test]
+fn levels_are_read_or_named() {
+    assert_eq!(Level::parse("portable"), Ok(Level::Portable));
+    assert!(Level::parse("mmx").unwrap_err().contains("portable"));
+}

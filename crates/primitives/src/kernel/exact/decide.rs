@@ -1,0 +1,134 @@
+//! Hits and misses in `f64`, with t rounded correctly.
+//!
+//! The bounds are those of [`super::reject`] with ε = 2^-53; products of three `f32` neither under- nor overflow.
+
+use super::by_integers;
+use super::signs::{Place, meets_corner, place};
+use crate::kernel::wide::{Pairs, Products};
+use lanes::packet::Lanes;
+use lanes::{ROW, Simd};
+
+const BOUND: f64 = 64.0 * f64::EPSILON / 2.0;
+
+/// Up to so many lanes are decided one by one.
+const FEW: u32 = 2;
+
+/// Decisions in memory.
+struct Decisions {
+    /// 0: missed, 1: hit, 2: neither is certain, 3: a hit if inside, which is not certain.
+    state: [f32; ROW],
+    t: [f32; ROW],
+    u: [f32; ROW],
+    v: [f32; ROW],
+}
+
+/// Decides the lanes `open`; the others hold no hit.
+#[inline(always)]
+pub(super) fn decide<S: Simd>(s: S, pairs: &impl Pairs, open: u32) -> Lanes<S> {
+    let mut rows = Decisions { state: [0.0; ROW], t: [0.0; ROW], u: [0.0; ROW], v: [0.0; ROW] };
+    if open.count_ones() <= FEW {
+        let mut left = open;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % ROW;
+            left &= left - 1;
+            rows.decide(pairs, lane);
+        }
+    } else {
+        for lane in 0..S::LANES {
+            rows.decide(pairs, lane);
+        }
+    }
+    let known = s.load(&rows.state);
+    let unsure = s.bits(s.lt(s.splat(1.5), known)) & open;
+    let mut hits = s.bits(s.eq(known, s.splat(1.0))) & open;
+    if unsure != 0 {
+        hits |= rows.settle(pairs, unsure);
+    }
+    Lanes { hit: s.mask(hits), t: s.load(&rows.t), u: s.load(&rows.u), v: s.load(&rows.v) }
+}
+
+impl Decisions {
+    /// Without branches, so that loops over lanes become vectors.
+    #[inline(always)]
+    fn decide(&mut self, pairs: &impl Pairs, lane: usize) {
+        let ray = pairs.ray(lane);
+        let products = Products::of(&ray, &pairs.corners(lane));
+        let Products { edges, from_a, direction, det, scaled: [u, v, t] } = products;
+        let length = greater(largest(edges[0]), largest(edges[1]));
+        let size = from_a[0].abs() + from_a[1].abs() + from_a[2].abs() + length;
+        let area = length * size * BOUND;
+        let error = area * largest(direction);
+        let t_error = area * length;
+        let w = det - u - v;
+        let (least, greatest) = (least3(u, v, w), greatest3(u, v, w));
+        let missed = (error < greatest) & (least < -error);
+        let inside = (error < least) | (greatest < -error);
+
+        let reciprocal = 1.0 / det;
+        let quotient = t * reciprocal;
+        // |t/d − t'/d'| ≤ (error of t' + |t'/d'|·error of d')/|d| with |d| ≥ |d'| − error. The factor makes up for
+        // dividing by |d'|, for `firm` holds below; the last term for the roundings of the quotient.
+        let off = (t_error + quotient.abs() * error) * reciprocal.abs() * 1.001
+            + quotient.abs() * (4.0 * f64::EPSILON);
+        let firm = error * 2048.0 < det.abs();
+        // Adding zero makes −0 a +0.
+        let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
+        // At an end of the range, the rounded t doesn't tell on which side the true one lies.
+        let clear = (low == high) & (low != ray.t_min) & (low != ray.t_max);
+        let unsure = if firm & clear { 3.0 } else { 2.0 };
+        self.state[lane] = if inside & firm & clear { 1.0 } else { unsure };
+        self.state[lane] = if missed { 0.0 } else { self.state[lane] };
+        self.t[lane] = low;
+        self.u[lane] = (u * reciprocal) as f32;
+        self.v[lane] = (v * reciprocal) as f32;
+    }
+
+    /// Decides the lanes `unsure` by exact signs and, where t is not known, by integers, and tells which are hit.
+    #[cold]
+    fn settle(&mut self, pairs: &impl Pairs, mut unsure: u32) -> u32 {
+        let mut hits = 0;
+        while unsure != 0 {
+            let lane = unsure.trailing_zeros() as usize;
+            unsure &= unsure - 1;
+            let (ray, corners) = (pairs.ray(lane), pairs.corners(lane));
+            let needs_only_inside = self.state[lane] == 3.0;
+            if needs_only_inside && meets_corner(&ray, &corners) {
+                hits |= 1 << lane;
+                continue;
+            }
+            match place(&ray, &corners) {
+                Some(Place::Outside) => {}
+                Some(Place::Inside(_)) if needs_only_inside => hits |= 1 << lane,
+                _ => {
+                    if let Some(found) = by_integers(&ray, &corners) {
+                        hits |= 1 << lane;
+                        (self.t[lane], self.u[lane], self.v[lane]) = found.into();
+                    }
+                }
+            }
+        }
+        hits
+    }
+}
+
+// As comparisons, for `f64::min` and `max` treat NaN at the cost of more instructions.
+
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn greatest3(a: f64, b: f64, c: f64) -> f64 {
+    greater(greater(a, b), c)
+}
+
+#[inline(always)]
+fn least3(a: f64, b: f64, c: f64) -> f64 {
+    -greatest3(-a, -b, -c)
+}
+
+#[inline(always)]
+fn largest(v: [f64; 3]) -> f64 {
+    greatest3(v[0].abs(), v[1].abs(), v[2].abs())
+}

@@ -1,0 +1,213 @@
+//! A test whose every decision is the true one, at the usual cost of one in `f32`.
+//!
+//! Three stages, each leaving to the next what it can't tell for certain:
+//!
+//! 1. [`reject`]: Möller and Trumbore's products in `f32` with an error bound, in lanes. Nearly all
+//!    triangles tested are missed, and nearly all misses end here. Hits that are certain, with bounds of t that tell which
+//!    is the nearest, wait until the ray is done ([`Kernel::POSTPONES`]).
+//! 2. [`decide`]: the same products in `f64` with an error bound. It settles hits, and rounds t correctly where
+//!    its bound leaves one `f32` only.
+//! 3. [`signs`]: rays through an edge or a corner, by signs without error.
+//! 4. [`oracle::intersect`]: integers. Ranges that begin or end at the hit, and t's halfway between two `f32`, come here.
+//!
+//! t is the true one correctly rounded. Rounding keeps order, so of two hits the one reported at the lower t is the
+//! nearer one; hits reported at the same t are put in order by integers unless they are of one edge or corner ([`Kernel::order`]).
+//!
+//! The idea of stages is that of J. R. Shewchuk, *Adaptive Precision Floating-Point
+//! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
+
+mod decide;
+mod reject;
+mod signs;
+
+#[cfg(test)]
+mod tests;
+
+use super::wide::{OneEach, OneRay, OneTriangle, RayRows};
+use super::{Corners, Kernel, KernelId, load_corners, pack_corners, splat_corners};
+use accel::{Common, Ray};
+use lanes::packet::{Bounds, Lanes, Packet};
+use lanes::{Row, Scalar, Simd};
+use signs::{Place, meet_at_corner, place, same_point};
+use std::cmp::Ordering;
+
+/// The exact test: see [`oracle`] for what counts as a hit.
+/// u and v are right to about one unit in the last place of 1.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exact;
+
+/// The row of the edges' largest components.
+const LENGTH_ROW: usize = 9;
+
+/// A ray and the size of its direction.
+#[derive(Clone, Copy)]
+pub struct Spanned {
+    ray: Ray,
+    span: reject::Span<Scalar>,
+}
+
+/// [`Spanned`] in lanes.
+#[derive(Clone, Copy)]
+pub struct SpannedLanes<S: Simd> {
+    rays: Packet<S>,
+    span: reject::Span<S>,
+}
+
+impl Kernel for Exact {
+    const ID: KernelId = KernelId::Exact;
+    const ORDERS_TIES: bool = true;
+    const NORMALISED: bool = false;
+    /// The corners, and the largest component of the edges.
+    const ROWS: usize = 10;
+    type One = Spanned;
+    type Many<S: Simd> = SpannedLanes<S>;
+
+    #[inline(always)]
+    fn pack(corners: &Corners, group: &mut [Row], lane: usize) {
+        pack_corners(corners, group, lane);
+        group[LENGTH_ROW].0[lane] = reject::length_of(corners);
+    }
+
+    #[inline(always)]
+    fn one(ray: &Ray) -> Spanned {
+        Spanned { ray: *ray, span: reject::Span::of(Scalar, ray.origin.to_array(), ray.direction.to_array()) }
+    }
+
+    #[inline(always)]
+    fn many<S: Simd>(s: S, rays: &Packet<S>) -> SpannedLanes<S> {
+        SpannedLanes { rays: *rays, span: reject::Span::of(s, rays.origin, rays.direction) }
+    }
+
+    #[inline(always)]
+    fn triangles<S: Simd>(
+        s: S,
+        ray: &Spanned,
+        group: &[Row],
+        at: usize,
+        wanted: u32,
+        t_max: f32,
+    ) -> Lanes<S> {
+        let bounds = Self::triangles_bounds(s, ray, group, at, t_max);
+        Self::triangles_decided(s, ray, group, at, wanted & s.bits(bounds.open), t_max)
+    }
+
+    #[inline(always)]
+    fn triangles_bounds<S: Simd>(s: S, ray: &Spanned, group: &[Row], at: usize, t_max: f32) -> Bounds<S> {
+        let rays = Packet::splat(s, &ray.ray);
+        let length = s.load(&group[LENGTH_ROW].0[at..]);
+        reject::bounds(s, &rays, &ray.span.splat(s), load_corners(s, group, at), length, s.splat(t_max))
+    }
+
+    #[inline(always)]
+    fn triangles_decided<S: Simd>(
+        s: S,
+        ray: &Spanned,
+        group: &[Row],
+        at: usize,
+        open: u32,
+        t_max: f32,
+    ) -> Lanes<S> {
+        if open == 0 {
+            return nothing(s);
+        }
+        let pairs = OneRay::new(&ray.ray, group, at, S::LANES);
+        in_range(s, decide::decide(s, &pairs, open), &Packet::splat(s, &ray.ray), s.splat(t_max))
+    }
+
+    #[inline(always)]
+    fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
+        let open = s.bits(Self::bounds(s, rays, group, lane, t_max).open);
+        Self::decide(s, rays, group, lane, open, t_max)
+    }
+
+    const POSTPONES: bool = true;
+
+    #[inline(always)]
+    fn bounds<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Bounds<S> {
+        let length = s.splat(group[LENGTH_ROW].0[lane]);
+        reject::bounds(s, &rays.rays, &rays.span, splat_corners(s, group, lane), length, t_max)
+    }
+
+    #[inline(always)]
+    fn decide<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        group: &[Row],
+        lane: usize,
+        open: u32,
+        t_max: S::F,
+    ) -> Lanes<S> {
+        if open == 0 {
+            return nothing(s);
+        }
+        // Else the compiler loads the corners once for here and for the rejection, and by a gather.
+        let group = std::hint::black_box(group);
+        let rows = RayRows::of(s, &rays.rays);
+        let pairs = OneTriangle::new(&rows, group, lane);
+        in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
+    }
+
+    #[inline(always)]
+    fn settle<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], open: u32) -> Lanes<S> {
+        let rows = RayRows::of(s, rays);
+        in_range(s, decide::decide(s, &OneEach::new(&rows, group), open), rays, rays.t_max)
+    }
+
+    const PREPARED_ROWS: usize = reject::PREPARED_ROWS;
+
+    #[inline(always)]
+    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
+        reject::prepare(s, common, load_corners(s, group, at), rows, at);
+    }
+
+    #[inline(always)]
+    fn bounds_prepared<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        common: &Common,
+        group: &[Row],
+        rows: &[Row],
+        lane: usize,
+        t_max: S::F,
+    ) -> Bounds<S> {
+        let prepared = reject::Prepared { common, group, rows, lane };
+        reject::bounds_prepared(s, &rays.rays, &rays.span, prepared, t_max)
+    }
+
+    fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
+        if a == b {
+            return Ordering::Equal;
+        }
+        if meet_at_corner(ray, a, b) {
+            return Ordering::Equal;
+        }
+        if let (Some(Place::Inside(on_a)), Some(Place::Inside(on_b))) = (place(ray, a), place(ray, b))
+            && same_point((a, on_a), (b, on_b))
+        {
+            return Ordering::Equal;
+        }
+        let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
+        let t = |corners| oracle::intersect(&line, corners).map(|hit| hit.t);
+        t(a).cmp(&t(b))
+    }
+}
+
+#[inline(always)]
+fn nothing<S: Simd>(s: S) -> Lanes<S> {
+    let zero = s.splat(0.0);
+    Lanes { hit: s.mask(0), t: zero, u: zero, v: zero }
+}
+
+/// Where t is equal to an end of the ray's own range, it has been compared exactly.
+#[inline(always)]
+fn in_range<S: Simd>(s: S, lanes: Lanes<S>, ray: &Packet<S>, t_max: S::F) -> Lanes<S> {
+    let within = s.and(s.le(ray.t_min, lanes.t), s.le(lanes.t, t_max));
+    Lanes { hit: s.and(lanes.hit, within), ..lanes }
+}
+
+/// What integers find, rounded.
+#[cold]
+fn by_integers(ray: &Ray, corners: &Corners) -> Option<[f32; 3]> {
+    let hit = oracle::intersect(ray, corners)?;
+    Some([hit.t.to_f32(), hit.u.to_f32(), hit.v.to_f32()])
+}

@@ -1,0 +1,298 @@
+//! Signs of edge functions without error, in `f64`.
+//!
+//! A sum of products of `f64` values is kept as an expansion: a list of `f64` values that don't overlap and whose sum
+//! is exact (J. R. Shewchuk, *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates*,
+//! Discrete & Computational Geometry 18(3), 1997, §2). Coordinates being `f32`, every product of three differences is a multiple of
+//! 2^-447 below 2^385, so nothing under- or overflows.
+
+use accel::{Corners, Ray, Vec3};
+use std::cmp::Ordering;
+
+/// Differences and partial products of one edge function: 3 minors of 2 products, each in 2 parts, times a
+/// component in 2 parts.
+const TERMS: usize = 24;
+
+/// Above any error of a computed edge function, relative to the sum of its absolute products: seven roundings.
+const BOUND: f64 = 16.0 * f64::EPSILON / 2.0;
+
+/// Where a line meets a triangle's plane relative to the triangle, without error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Outside, or the line is parallel to the plane.
+    Outside,
+    /// Inside or on the border. The flags tell which edges it is on: those opposite to the first, second and third corner.
+    Inside([bool; 3]),
+}
+
+/// The place of the ray's line, or `None` where a difference of coordinates needs more digits than `f64` has.
+pub(super) fn place(ray: &Ray, corners: &Corners) -> Option<Place> {
+    let mut relative = [[0.0; 3]; 3];
+    for (to, corner) in relative.iter_mut().zip(corners) {
+        *to = difference(*corner, ray.origin)?;
+    }
+    let direction = ray.direction.to_array().map(f64::from);
+    let [a, b, c] = relative;
+    let signs = [(c, b), (a, c), (b, a)].map(|(p, q)| edge_sign(direction, p, q));
+    let (less, greater) = (signs.contains(&Ordering::Less), signs.contains(&Ordering::Greater));
+    if less == greater {
+        // Both signs, or all zero: the line lies in the plane.
+        return Some(Place::Outside);
+    }
+    Some(Place::Inside(signs.map(Ordering::is_eq)))
+}
+
+/// Whether hits of the same line at these places of two triangles are certainly one point, because they are on the same
+/// edge or corner.
+pub(super) fn same_point(a: (&Corners, [bool; 3]), b: (&Corners, [bool; 3])) -> bool {
+    let holds = |(corners, on): (&Corners, [bool; 3]), point: Vec3| {
+        corners.iter().zip(on).any(|(corner, opposite)| !opposite && *corner == point)
+    };
+    // The corners of the least face that holds the hit are those that it isn't opposite of.
+    let shares = |x: (&Corners, [bool; 3]), y| {
+        x.0.iter().zip(x.1).filter(|(_, opposite)| !opposite).all(|(corner, _)| holds(y, *corner))
+    };
+    let proper = a.1.contains(&true) && b.1.contains(&true);
+    proper && shares(a, b) && shares(b, a)
+}
+
+/// Whether the ray's line certainly passes through a corner.
+pub(super) fn meets_corner(ray: &Ray, corners: &Corners) -> bool {
+    corners.iter().any(|corner| passes(ray, *corner))
+}
+
+/// Whether the ray's line certainly passes through a corner that both triangles have. If it is in neither's plane, that corner is where it
+/// hits both.
+pub(super) fn meet_at_corner(ray: &Ray, a: &Corners, b: &Corners) -> bool {
+    a.iter().any(|corner| b.contains(corner) && passes(ray, *corner))
+}
+
+/// Whether the line certainly passes through a point: (p − o) × d = 0.
+fn passes(ray: &Ray, point: Vec3) -> bool {
+    let d = ray.direction.to_array().map(f64::from);
+    let Some(p) = difference(point, ray.origin) else { return false };
+    let equal = |[_, j, k]: [usize; 3]| {
+        p[j] * d[k] == p[k] * d[j] && two_product(p[j], d[k]).1 == two_product(p[k], d[j]).1
+    };
+    MINORS.into_iter().all(equal)
+}
+
+/// p − q if that is exact.
+fn difference(p: Vec3, q: Vec3) -> Option<[f64; 3]> {
+    let mut result = [0.0; 3];
+    for axis in 0..3 {
+        let (high, low) = two_sum(f64::from(p[axis]), -f64::from(q[axis]));
+        if low != 0.0 || !high.is_finite() {
+            return None;
+        }
+        result[axis] = high;
+    }
+    Some(result)
+}
+
+/// The axes of the three minors of a triple product, each after that of its factor.
+const MINORS: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
+
+/// The minor whose factor is the only one that isn't zero: rays along an axis meet corners and edges most often.
+fn only_minor(d: [f64; 3]) -> Option<[usize; 3]> {
+    MINORS.into_iter().find(|[i, j, k]| d[*i] != 0.0 && d[*j] == 0.0 && d[*k] == 0.0)
+}
+
+/// The sign of d·(p×q).
+fn edge_sign(d: [f64; 3], p: [f64; 3], q: [f64; 3]) -> Ordering {
+    let (mut value, mut size) = (0.0, 0.0);
+    for [i, j, k] in MINORS {
+        let (x, y) = (p[j] * q[k], p[k] * q[j]);
+        value += d[i] * (x - y);
+        size += d[i].abs() * (x.abs() + y.abs());
+    }
+    if value.abs() > size * BOUND {
+        return sign(value);
+    }
+    if let Some([i, j, k]) = only_minor(d) {
+        let (x, y) = (two_product(p[j], q[k]), two_product(p[k], q[j]));
+        // Rounding keeps order, so the errors decide between products that are rounded to the same.
+        let order = sign(x.0 - y.0).then(sign(x.1 - y.1));
+        return if d[i] < 0.0 { order.reverse() } else { order };
+    }
+    let mut sum = Expansion { parts: [0.0; TERMS], len: 0 };
+    for [i, j, k] in MINORS {
+        for (x, y, factor) in [(p[j], q[k], d[i]), (p[k], q[j], -d[i])] {
+            if x == 0.0 || y == 0.0 || factor == 0.0 {
+                continue;
+            }
+            let (high, low) = two_product(x, y);
+            for part in [high, low] {
+                let (high, low) = two_product(part, factor);
+                sum.add(low);
+                sum.add(high);
+            }
+        }
+    }
+    sum.sign()
+}
+
+fn sign(value: f64) -> Ordering {
+    if value > 0.0 {
+        Ordering::Greater
+    } else if value < 0.0 {
+        Ordering::Less
+    } else {
+        Ordering::Equal
+    }
+}
+
+/// An exact sum, its parts by ascending size and none zero.
+struct Expansion {
+    parts: [f64; TERMS],
+    len: usize,
+}
+
+impl Expansion {
+    /// Adds a number, at most [`TERMS`] of them (Shewchuk, Grow-Expansion with zero elimination).
+    fn add(&mut self, term: f64) {
+        if term == 0.0 {
+            return;
+        }
+        let (mut rest, mut len) = (term, 0);
+        for i in 0..self.len {
+            let (high, low) = two_sum(rest, self.parts[i]);
+            if low != 0.0 {
+                self.parts[len] = low;
+                len += 1;
+            }
+            rest = high;
+        }
+        if rest != 0.0 {
+            self.parts[len] = rest;
+            len += 1;
+        }
+        self.len = len;
+    }
+
+    /// The largest part outweighs the others.
+    fn sign(&self) -> Ordering {
+        if self.len == 0 { Ordering::Equal } else { sign(self.parts[self.len - 1]) }
+    }
+}
+
+/// a + b and its rounding error (Knuth).
+#[inline]
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let b_part = sum - a;
+    (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+/// a·b and its rounding error (Dekker).
+#[inline]
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
+    (product, a2 * b2 - (((product - a1 * b1) - a2 * b1) - a1 * b2))
+}
+
+/// A number as a sum of two of 26 digits each (Veltkamp).
+#[inline]
+fn halves(a: f64) -> (f64, f64) {
+    let c = 134_217_729.0 * a;
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use oracle::intersect;
+    use proptest::prelude::*;
+
+    /// Numbers of a few digits at scales so different that sums need many parts.
+    fn number() -> impl Strategy<Value = f32> + Clone {
+        (-9i8..=9, prop::sample::select(vec![-60, -25, -9, 0, 0, 0, 3, 20]))
+            .prop_map(|(m, e)| f32::from(m) * 2f32.powi(e))
+    }
+
+    fn vector() -> impl Strategy<Value = Vec3> {
+        [number(), number(), number()].prop_map(Vec3::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn places_are_those_of_integers(o in vector(), d in vector(), axis in prop::option::of(0usize..3), corners in [vector(), vector(), vector()]) {
+            let d = axis.map_or(d, |axis| Vec3::AXES[axis] * d);
+            let ray = Ray { t_min: f32::NEG_INFINITY, ..Ray::new(o, d) };
+            let exact = intersect(&ray, &corners);
+            if let Some(hit) = exact.as_ref().filter(|_| meets_corner(&ray, &corners)) {
+                let weights = [hit.u.to_f64(), hit.v.to_f64()];
+                prop_assert!([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].contains(&weights));
+            }
+            if let Some(place) = place(&ray, &corners) {
+                prop_assert!(!(meets_corner(&ray, &corners) && place == Place::Outside && exact.is_some()));
+                prop_assert_eq!(place != Place::Outside, exact.is_some());
+                if let (Place::Inside(on), Some(hit)) = (place, exact) {
+                    // u is the weight of the second corner, v of the third.
+                    prop_assert_eq!(on[1], hit.u.to_f64() == 0.0);
+                    prop_assert_eq!(on[2], hit.v.to_f64() == 0.0);
+                }
+            }
+        }
+
+        #[test]
+        fn one_point_has_one_t(o in vector(), target in vector(), a in vector(), b in vector(), c in vector(), d in vector(), turn in 0usize..3) {
+            let ray = Ray { t_min: f32::NEG_INFINITY, ..Ray::new(o, target - o) };
+            let mut second = [a, b, d];
+            second.rotate_left(turn);
+            let first = [c, a, b];
+            let t = |corners| intersect(&ray, corners).map(|hit| hit.t);
+            if let (true, Some(x), Some(y)) = (meet_at_corner(&ray, &first, &second), t(&first), t(&second)) {
+                prop_assert_eq!(x, y);
+            }
+            if let (Some(Place::Inside(x)), Some(Place::Inside(y))) = (place(&ray, &first), place(&ray, &second))
+                && same_point((&first, x), (&second, y))
+            {
+                prop_assert_eq!(t(&first), t(&second));
+            }
+        }
+    }
+
+    /// A line that passes an edge by so little that `f64` sees it on neither side, and one that meets it.
+    #[test]
+    fn the_least_difference_is_seen() {
+        let (big, unit) = (16_777_215.0, 2f32.powi(-20));
+        for side in [1.0, -1.0] {
+            let corners = [Vec3::ZERO, Vec3::new(big, big - 1.0, big) * unit, Vec3::new(-side, side, 0.0)];
+            let through =
+                |p: Vec3| Ray { t_min: f32::NEG_INFINITY, ..Ray::new(p * unit, Vec3::new(big, 3.0, 7.0)) };
+            let places =
+                [Vec3::new(big - 1.0, big - 2.0, big - 1.0), Vec3::new(big, big - 1.0, big)].map(|p| {
+                    let found = place(&through(p), &corners).expect("few digits");
+                    assert_eq!(found != Place::Outside, intersect(&through(p), &corners).is_some());
+                    found
+                });
+            assert!(matches!(places[1], Place::Inside(on) if on.contains(&true)), "{places:?}");
+        }
+        let mut sum = Expansion { parts: [0.0; TERMS], len: 0 };
+        [1e30, -1.0, 1e-30, -1e30, 1.0].into_iter().for_each(|term| sum.add(term));
+        assert_eq!((sum.sign(), sum.len), (Ordering::Greater, 1));
+        sum.add(-1e-30);
+        assert_eq!(sum.sign(), Ordering::Equal);
+    }
+
+    #[test]
+    fn hits_of_one_edge_or_corner_are_one_point() {
+        let [a, b, c, d] = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, -1.0, 2.0)];
+        let at = |point: Vec3| Ray::new(point - Vec3::Z, Vec3::Z);
+        let same = |ray: &Ray, x: &Corners, y: &Corners| match (place(ray, x), place(ray, y)) {
+            (Some(Place::Inside(p)), Some(Place::Inside(q))) => same_point((x, p), (y, q)),
+            places => panic!("{places:?}"),
+        };
+        let (first, second) = ([a, b, c], [b, d, a]);
+        assert!(same(&at(Vec3::new(0.5, 0.0, 0.0)), &first, &second), "an edge");
+        assert!(same(&at(b), &first, &second), "a corner");
+        assert!(meets_corner(&at(b), &first) && meet_at_corner(&at(b), &first, &second));
+        assert!(!meets_corner(&at(Vec3::new(0.5, 0.0, 0.0)), &first));
+        let flat = [a, b, Vec3::new(1.0, 1.0, 0.0)];
+        assert!(!same(&at(Vec3::new(0.5, 0.25, 0.0)), &first, &flat), "insides are not compared");
+    }
+}

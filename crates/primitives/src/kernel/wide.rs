@@ -1,0 +1,189 @@
+//! Lanes of `f32` computed in `f64`.
+//!
+//! [`lanes::Simd`] has no lanes of `f64`. Plain loops over rows in memory serve: compiled for
+//! the instruction set of the task, they become vectors.
+
+use super::{Corners, unpack_corners};
+use accel::{Ray, Vec3};
+use lanes::packet::Packet;
+use lanes::{ROW, Row, Simd};
+
+/// The differences and products of Möller and Trumbore's test.
+#[derive(Clone, Copy)]
+pub(super) struct Products {
+    /// Edges from the first corner.
+    pub edges: [[f64; 3]; 2],
+    /// The origin relative to the first corner.
+    pub from_a: [f64; 3],
+    /// The ray's direction.
+    pub direction: [f64; 3],
+    /// The determinant.
+    pub det: f64,
+    /// u, v and t times the determinant.
+    pub scaled: [f64; 3],
+}
+
+impl Products {
+    #[inline(always)]
+    pub(super) fn of(ray: &Ray, corners: &Corners) -> Self {
+        let (a, b, c) = (wide(corners[0]), wide(corners[1]), wide(corners[2]));
+        let direction = wide(ray.direction);
+        let (edge1, edge2) = (sub(b, a), sub(c, a));
+        let from_a = sub(wide(ray.origin), a);
+        let p = cross(direction, edge2);
+        let q = cross(from_a, edge1);
+        Self {
+            edges: [edge1, edge2],
+            from_a,
+            direction,
+            det: dot(edge1, p),
+            scaled: [dot(from_a, p), dot(direction, q), dot(edge2, q)],
+        }
+    }
+}
+
+/// The rays of a packet in memory.
+#[derive(Clone, Copy, Debug)]
+pub struct RayRows {
+    rows: [[f32; ROW]; 8],
+}
+
+impl RayRows {
+    #[inline(always)]
+    pub(super) fn of<S: Simd>(s: S, rays: &Packet<S>) -> Self {
+        let mut rows = [[0.0; ROW]; 8];
+        s.store(rays.origin[0], &mut rows[0]);
+        s.store(rays.origin[1], &mut rows[1]);
+        s.store(rays.origin[2], &mut rows[2]);
+        s.store(rays.direction[0], &mut rows[3]);
+        s.store(rays.direction[1], &mut rows[4]);
+        s.store(rays.direction[2], &mut rows[5]);
+        s.store(rays.t_min, &mut rows[6]);
+        s.store(rays.t_max, &mut rows[7]);
+        Self { rows }
+    }
+
+    /// One lane's ray.
+    #[inline(always)]
+    pub(super) fn ray(&self, lane: usize) -> Ray {
+        let rows = &self.rows;
+        Ray {
+            origin: Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane]),
+            direction: Vec3::new(rows[3][lane], rows[4][lane], rows[5][lane]),
+            t_min: rows[6][lane],
+            t_max: rows[7][lane],
+        }
+    }
+}
+
+/// One ray against the triangles from a lane on.
+#[derive(Clone, Copy)]
+pub(super) struct OneRay<'a> {
+    ray: &'a Ray,
+    rows: [&'a [f32]; 9],
+}
+
+/// Rays against one triangle.
+#[derive(Clone, Copy)]
+pub(super) struct OneTriangle<'a> {
+    rays: &'a RayRows,
+    corners: Corners,
+}
+
+/// Rays each against the triangle in its own lane of a group.
+#[derive(Clone, Copy)]
+pub(super) struct OneEach<'a> {
+    rays: &'a RayRows,
+    group: &'a [Row],
+}
+
+/// The ray and the triangle that meet in each lane.
+pub(super) trait Pairs {
+    fn ray(&self, lane: usize) -> Ray;
+    fn corners(&self, lane: usize) -> Corners;
+}
+
+impl<'a> OneRay<'a> {
+    /// The triangles in `lanes` lanes of a group from lane `at` on.
+    #[inline(always)]
+    pub(super) fn new(ray: &'a Ray, group: &'a [Row], at: usize, lanes: usize) -> Self {
+        let mut rows: [&[f32]; 9] = [&[]; 9];
+        for (row, packed) in rows.iter_mut().zip(&group[..9]) {
+            *row = &packed.0[at..at + lanes];
+        }
+        Self { ray, rows }
+    }
+}
+
+impl<'a> OneTriangle<'a> {
+    /// The triangle in lane `lane` of a group.
+    #[inline(always)]
+    pub(super) fn new(rays: &'a RayRows, group: &[Row], lane: usize) -> Self {
+        Self { rays, corners: unpack_corners(group, lane) }
+    }
+}
+
+impl<'a> OneEach<'a> {
+    #[inline(always)]
+    pub(super) fn new(rays: &'a RayRows, group: &'a [Row]) -> Self {
+        Self { rays, group: &group[..9] }
+    }
+}
+
+impl Pairs for OneEach<'_> {
+    #[inline(always)]
+    fn ray(&self, lane: usize) -> Ray {
+        self.rays.ray(lane)
+    }
+    #[inline(always)]
+    fn corners(&self, lane: usize) -> Corners {
+        unpack_corners(self.group, lane)
+    }
+}
+
+impl Pairs for OneRay<'_> {
+    #[inline(always)]
+    fn ray(&self, _: usize) -> Ray {
+        *self.ray
+    }
+    #[inline(always)]
+    fn corners(&self, lane: usize) -> Corners {
+        let [ax, ay, az, bx, by, bz, cx, cy, cz] = self.rows;
+        [
+            Vec3::new(ax[lane], ay[lane], az[lane]),
+            Vec3::new(bx[lane], by[lane], bz[lane]),
+            Vec3::new(cx[lane], cy[lane], cz[lane]),
+        ]
+    }
+}
+
+impl Pairs for OneTriangle<'_> {
+    #[inline(always)]
+    fn ray(&self, lane: usize) -> Ray {
+        self.rays.ray(lane)
+    }
+    #[inline(always)]
+    fn corners(&self, _: usize) -> Corners {
+        self.corners
+    }
+}
+
+#[inline(always)]
+fn wide(v: Vec3) -> [f64; 3] {
+    [f64::from(v.x), f64::from(v.y), f64::from(v.z)]
+}
+
+#[inline(always)]
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

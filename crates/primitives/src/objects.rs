@@ -1,0 +1,28 @@
+//! The objects of a scene as a type.
+
+use crate::{Boxes, Kernel, KernelId, Triangles, WithKernel};
+use accel::{Geometry, Mesh, Scene};
+use lanes::PackedObjects;
+
+/// Code that is generic over the objects of a scene.
+pub trait WithObjects<'s> {
+    /// What it computes.
+    type Out;
+    /// Does it with these objects.
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out;
+}
+
+/// Calls `with` with the objects of a scene, triangles being tested by `kernel`.
+pub fn with_objects<'s, W: WithObjects<'s>>(scene: &'s Scene, kernel: KernelId, with: W) -> W::Out {
+    struct OfMesh<'s, W>(&'s Mesh, W);
+    impl<'s, W: WithObjects<'s>> WithKernel for OfMesh<'s, W> {
+        type Out = W::Out;
+        fn kernel<K: Kernel>(self) -> W::Out {
+            self.1.objects(Triangles::<K>::new(self.0))
+        }
+    }
+    match &scene.geometry {
+        Geometry::Triangles(mesh) => kernel.with(OfMesh(mesh, with)),
+        Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
+    }
+}

@@ -1,0 +1,138 @@
+//! What becomes of the hits of several rays on one triangle.
+
+#[cfg(doc)]
+use super::Frame;
+use super::{Kernel, Limits, TriangleBlocks, TrianglePacket, next_lane};
+use accel::Nearest;
+use lanes::packet::{Bounds, Lanes, NearestPacket, Packet};
+use lanes::{Blocks, ROW, Row, Simd};
+
+/// As many rows as kernels pack, or more.
+const MOST_ROWS: usize = 16;
+
+impl<K: Kernel> TriangleBlocks<'_, K> {
+    /// Offers those lanes that keep the law: those that do plainly and whose origins are near, and
+    /// those of the others that the full test finds lawful.
+    #[inline(always)]
+    pub(super) fn offer<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        rays: &TrianglePacket<S, K::Many<S>>,
+        limits: &Limits,
+        mut lanes: Lanes<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let hits = s.bits(lanes.hit);
+        let plain = s.bits(s.and(rays.near, limits.hold(s, &rays.rays, lanes.t)));
+        let mut open = hits & !plain;
+        if open != 0 {
+            let corners = self.corners_of(slot);
+            let mut lawful = hits & plain;
+            let rows = lanes.rows(s);
+            while let Some(lane) = next_lane(&mut open) {
+                if self.triangles.frame.lawful(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t)
+                {
+                    lawful |= 1 << lane;
+                }
+            }
+            lanes.hit = s.mask(lawful);
+        }
+        let object = self.ids.get(slot);
+        if K::ORDERS_TIES {
+            self.take_ties(s, object, &mut lanes, &rays.rays, best);
+        }
+        best.offer(s, object, &lanes);
+    }
+
+    /// Decides the lanes that hit `object` at the same t as another object, and strikes them off `lanes`.
+    #[inline(always)]
+    fn take_ties<S: Simd>(
+        &self,
+        s: S,
+        object: u32,
+        lanes: &mut Lanes<S>,
+        rays: &Packet<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let mut ties = s.bits(best.ties(s, object, lanes));
+        if ties == 0 {
+            return;
+        }
+        let settled = s.bits(lanes.hit) & !ties;
+        let mut others = [Nearest::new(0.0); ROW];
+        best.store(s, &mut others);
+        let mut wins = 0;
+        while let Some(lane) = next_lane(&mut ties) {
+            let wins_here = self.triangles.precedes(&rays.ray(s, lane), object, others[lane].object);
+            wins |= u32::from(wins_here) << lane;
+        }
+        best.take(s, s.mask(wins), object, lanes);
+        lanes.hit = s.mask(settled);
+    }
+
+    /// Postpones the sure hits that certainly come before what is there, and decides those that may. Sure hits of near
+    /// rays keep the law, see [`Frame::is_near`].
+    #[inline(always)]
+    pub(super) fn postpone<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        rays: &TrianglePacket<S, K::Many<S>>,
+        bounds: &Bounds<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let postponed = best.postpone(s, slot as u32, s.and(bounds.sure, rays.near), bounds);
+        let open = s.bits(bounds.open) & !s.bits(postponed);
+        if open != 0 {
+            self.decide(s, slot, rays, open, best);
+        }
+    }
+
+    #[inline(always)]
+    fn decide<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        rays: &TrianglePacket<S, K::Many<S>>,
+        open: u32,
+        best: &mut NearestPacket<S>,
+    ) {
+        self.settle_lanes(s, rays, open, best);
+        let lanes = K::decide(s, &rays.prepared, self.packed(slot), slot % ROW, open, best.t);
+        if s.bits(lanes.hit) != 0 {
+            let limits = Limits::of(&self.triangles.frame, &self.corners_of(slot));
+            self.offer(s, slot, rays, &limits, lanes, best);
+        }
+    }
+
+    /// Decides those of the lanes `which` whose hits are postponed; `best` holds their slots.
+    #[inline(always)]
+    pub(super) fn settle_lanes<S: Simd>(
+        &self,
+        s: S,
+        rays: &TrianglePacket<S, K::Many<S>>,
+        which: u32,
+        best: &mut NearestPacket<S>,
+    ) {
+        const { assert!(K::ROWS <= MOST_ROWS) };
+        let open = s.bits(best.postponed(s)) & which;
+        if open == 0 {
+            return;
+        }
+        let mut slots = [0; ROW];
+        s.store_u(best.object, &mut slots);
+        let mut group = [Row([0.0; ROW]); MOST_ROWS];
+        let mut left = open;
+        while let Some(lane) = next_lane(&mut left) {
+            let slot = slots[lane] as usize;
+            for (to, from) in group.iter_mut().zip(self.packed(slot)) {
+                to.0[lane] = from.0[slot % ROW];
+            }
+            slots[lane] = self.object(slot);
+        }
+        let rays = self.triangles.frame.packet(s, &rays.rays);
+        let found = K::settle(s, &rays, &group[..K::ROWS], open);
+        best.take_each(s, s.mask(open), &slots, &found);
+    }
+}

@@ -1,0 +1,176 @@
+//! One ray against triangles in lanes.
+
+use super::{Kernel, Room, TriangleBlocks, TriangleRay, next_lane};
+use accel::{Nearest, Surface};
+use lanes::{BLOCK, Blocks, ROW, Row, Scalar, Simd};
+
+/// The next triangles of a block to be tested at once.
+struct Next {
+    /// Their first slot.
+    slot: usize,
+    /// Bits of those that are wanted.
+    wanted: u32,
+}
+
+/// Takes them off `mask`.
+#[inline(always)]
+fn next<S: Simd>(block: usize, mask: &mut u64) -> Option<Next> {
+    if *mask == 0 {
+        return None;
+    }
+    let lanes_mask = u64::MAX >> (64 - S::LANES);
+    let first = mask.trailing_zeros() as usize / S::LANES * S::LANES;
+    let wanted = (*mask >> first & lanes_mask) as u32;
+    *mask &= !(lanes_mask << first);
+    Some(Next { slot: block * BLOCK + first, wanted })
+}
+
+impl<K: Kernel> TriangleBlocks<'_, K> {
+    /// Calls `found` with every lawful hit among the set bits until it says to stop.
+    #[inline(always)]
+    pub(super) fn visit<S: Simd>(
+        &self,
+        s: S,
+        block: usize,
+        mut mask: u64,
+        ray: &TriangleRay<K::One>,
+        mut t_max: f32,
+        mut found: impl FnMut(u32, Surface) -> Option<f32>,
+    ) {
+        let mut room = Room::EMPTY;
+        while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
+            let group = self.group(s, first, &mut room);
+            let lanes = K::triangles(s, &ray.prepared, group, first % ROW, wanted, t_max);
+            let mut hits = s.bits(lanes.hit) & wanted;
+            if hits == 0 {
+                continue;
+            }
+            let rows = lanes.rows(s);
+            while let Some(lane) = next_lane(&mut hits) {
+                let surface = rows.surface(lane);
+                if self.is_lawful(group, first + lane, ray, surface) {
+                    match found(self.ids.get(first + lane), surface) {
+                        Some(limit) => t_max = limit,
+                        None => return,
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn is_lawful(&self, group: &[Row], slot: usize, ray: &TriangleRay<K::One>, surface: Surface) -> bool {
+        let corners = self.corners(group, slot);
+        self.triangles.frame.lawful(&corners, &ray.ray, ray.near, surface.t)
+    }
+
+    #[inline(always)]
+    pub(super) fn offer_one(
+        &self,
+        ray: &TriangleRay<K::One>,
+        object: u32,
+        surface: Surface,
+        best: &mut Nearest,
+    ) {
+        best.offer_by(object, surface, |other| self.triangles.precedes(&ray.ray, object, other));
+    }
+
+    /// Postpones the nearest of the sure hits, and decides what may come before it.
+    #[inline(always)]
+    pub(super) fn postpone_nearest<S: Simd>(
+        &self,
+        s: S,
+        block: usize,
+        mut mask: u64,
+        ray: &TriangleRay<K::One>,
+        best: &mut Nearest,
+    ) {
+        while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
+            let group = self.packed(first);
+            let bounds = K::triangles_bounds(s, &ray.prepared, group, first % ROW, best.t);
+            let mut open = s.bits(bounds.open) & wanted;
+            if open == 0 {
+                continue;
+            }
+            let (mut low, mut high) = ([0.0; ROW], [0.0; ROW]);
+            s.store(bounds.low, &mut low);
+            s.store(bounds.high, &mut high);
+            let mut sure = if ray.near { open & s.bits(bounds.sure) } else { 0 };
+            while let Some(lane) = next_lane(&mut sure) {
+                if high[lane] < best.low() {
+                    *best = Nearest::postponed(first + lane, low[lane], high[lane]);
+                    open &= !(1 << lane);
+                }
+            }
+            while let Some(lane) = next_lane(&mut open) {
+                let known = best.is_postponed() && best.object as usize == first + lane;
+                let behind = low[lane] > best.t;
+                if !known && !behind {
+                    self.decide_one(ray, first + lane, high[lane], best);
+                }
+            }
+        }
+    }
+
+    /// Decides one test, and before it the hit postponed unless that comes after it for certain.
+    #[inline(always)]
+    fn decide_one(&self, ray: &TriangleRay<K::One>, slot: usize, high: f32, best: &mut Nearest) {
+        let before = high < best.low();
+        if !before {
+            self.settle_one(ray, best);
+        }
+        if let Some(surface) = self.decided(ray, slot, best.t) {
+            self.offer_one(ray, self.ids.get(slot), surface, best);
+        }
+    }
+
+    /// The lawful hit on the triangle in a slot.
+    #[inline(always)]
+    fn decided(&self, ray: &TriangleRay<K::One>, slot: usize, t_max: f32) -> Option<Surface> {
+        let group = self.packed(slot);
+        let lanes = K::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, t_max);
+        let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
+        (lanes.hit && self.is_lawful(group, slot, ray, surface)).then_some(surface)
+    }
+
+    /// Decides the hit that is postponed, if it is.
+    #[inline(always)]
+    pub(super) fn settle_one(&self, ray: &TriangleRay<K::One>, best: &mut Nearest) {
+        if best.is_postponed() {
+            let slot = best.object as usize;
+            let group = self.packed(slot);
+            let lanes = K::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, ray.ray.t_max);
+            debug_assert!(lanes.hit, "a sure hit");
+            *best = Nearest { t: lanes.t, object: self.object(slot), u: lanes.u, v: lanes.v };
+        }
+    }
+
+    /// Whether there is a hit; a sure one needs no decision.
+    #[inline(always)]
+    pub(super) fn any_certain<S: Simd>(
+        &self,
+        s: S,
+        block: usize,
+        mut mask: u64,
+        ray: &TriangleRay<K::One>,
+        t_max: f32,
+    ) -> bool {
+        while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
+            let bounds = K::triangles_bounds(s, &ray.prepared, self.packed(first), first % ROW, t_max);
+            let mut open = s.bits(bounds.open) & wanted;
+            if open == 0 {
+                continue;
+            }
+            let sure = s.and(bounds.sure, s.lt(bounds.high, s.splat(t_max)));
+            if ray.near && s.bits(sure) & wanted != 0 {
+                return true;
+            }
+            while let Some(lane) = next_lane(&mut open) {
+                if self.decided(ray, first + lane, t_max).is_some() {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+}

@@ -1,0 +1,101 @@
+use super::*;
+use crate::{Kernel, KernelId, WithKernel};
+use accel::tolerance::lawful;
+use accel::{Mesh, Vec3};
+use lanes::{BLOCK, Level, OneByOne, ROW, Task};
+use proptest::prelude::*;
+
+fn mesh(corners: &[[Vec3; 3]]) -> Mesh {
+    Mesh {
+        positions: corners.iter().flatten().copied().collect(),
+        triangles: (0..corners.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+    }
+}
+
+fn point(range: f32) -> impl Strategy<Value = Vec3> {
+    prop::array::uniform3(prop_oneof![-range..range, Just(0.0), Just(range)]).prop_map(Vec3::from_array)
+}
+
+struct ByMask<'a, B>(&'a B, &'a [Ray], u64);
+
+impl<B: Blocks> Task for ByMask<'_, B> {
+    type Out = Vec<[Nearest; 2]>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> Self::Out {
+        let Self(blocks, rays, mask) = self;
+        let mut out = vec![[Nearest::new(f32::INFINITY); 2]; rays.len()];
+        for (ray, [one, _]) in rays.iter().zip(&mut out) {
+            blocks.closest(s, 0, mask, &blocks.one(ray), one);
+            blocks.settle(&blocks.one(ray), one);
+        }
+        for first in (0..rays.len()).step_by(S::LANES) {
+            let many = blocks.many(s, &Packet::load(s, &rays[first..]));
+            let mut best = NearestPacket::new(s, s.splat(f32::INFINITY));
+            for slot in (0..BLOCK).filter(|slot| mask >> slot & 1 != 0) {
+                blocks.packet(s, slot, &many, &mut best);
+            }
+            blocks.settle_packet(s, &many, &mut best);
+            let mut stored = [Nearest::new(0.0); ROW];
+            best.store(s, &mut stored);
+            for lane in 0..S::LANES {
+                out[first + lane][1] = stored[lane];
+            }
+        }
+        out
+    }
+}
+
+struct Compare<'a>(&'a Mesh, &'a [Ray], u64);
+
+impl WithKernel for Compare<'_> {
+    type Out = ();
+    fn kernel<K: Kernel>(self) {
+        let Self(mesh, rays, mask) = self;
+        let objects = Triangles::<K>::new(mesh);
+        let order: Vec<u32> =
+            (0..BLOCK as u32).map(|i| if i % 5 == 4 { EMPTY_SLOT } else { i / 5 * 4 + i % 5 }).collect();
+        let order: Vec<u32> =
+            order.iter().map(|&id| if (id as usize) < objects.len() { id } else { EMPTY_SLOT }).collect();
+        let blocks = objects.blocks(&order);
+        let packed = OneByOne::new(objects, &order);
+        for level in Level::here() {
+            let fast = level.run(ByMask(&blocks, rays, mask));
+            let plain = level.run(ByMask(&packed, rays, mask));
+            for ((ray, fast), plain) in rays.iter().zip(fast).zip(plain) {
+                let mut reference = Nearest::new(f32::INFINITY);
+                for slot in (0..BLOCK).filter(|slot| mask >> slot & 1 != 0 && order[*slot] != EMPTY_SLOT) {
+                    if let Some(surface) = objects.intersect(order[slot], ray, f32::INFINITY) {
+                        objects.closest(order[slot], ray, &mut reference);
+                        let bounds = objects.bounds(order[slot]);
+                        assert!(lawful(&bounds, ray, surface.t), "{:?} breaks the law on {ray:?}", K::ID);
+                    }
+                }
+                for found in [fast, plain].into_iter().flatten() {
+                    assert_eq!(found.hit(), reference.hit(), "{} {level:?} {ray:?}", K::ID);
+                }
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Blocks, packets and single tests agree, and the law holds, also for rays from far
+    /// away, where hits are mostly rounding.
+    #[test]
+    fn blocks_agree_with_single_tests_and_the_law_holds(
+        corners in prop::collection::vec(prop::array::uniform3(point(1.0)), 1..52),
+        origins in prop::collection::vec(prop_oneof![3 => point(2.0), 1 => point(1e7)], ROW..=ROW),
+        aims in prop::collection::vec(point(1.0), ROW..=ROW),
+        mask: u64,
+    ) {
+        let rays: Vec<Ray> = origins.iter().zip(&aims)
+            .map(|(o, a)| Ray::new(*o, if a == o { Vec3::X } else { *a - *o }))
+            .collect();
+        for kernel in KernelId::ALL {
+            kernel.with(Compare(&mesh(&corners), &rays, mask));
+        }
+    }
+}
