@@ -2,8 +2,8 @@
 
 use accel::{Accel, Hit, Need, RaySet, Scene};
 use criterion::{Criterion, Throughput};
-use rayscale::rays::{RaysId, RaysSpec, generate};
-use rayscale::registry::{self, Choice};
+use harness::registry::{self, Choice};
+use scenes::rays::{RaysId, RaysSpec, generate};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ pub fn structures() -> Vec<Choice> {
 /// If there is no such scene.
 pub fn scene(id: &str) -> Scene {
     let spec = id.parse().expect("a scene's name");
-    rayscale::scene::load(&spec).unwrap_or_else(|error| panic!("{error}"))
+    scenes::load(&spec).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A ray set of the scene with `size` × `size` rays.
@@ -38,7 +38,7 @@ pub fn rays(scene: &Scene, id: RaysId, size: u32) -> RaySet {
 
 /// Built for the rays, or `None` where the structure doesn't serve them.
 pub fn build<'s>(choice: &Choice, scene: &'s Scene, rays: &RaySet) -> Option<Box<dyn Accel + 's>> {
-    rayscale::registry::keep_to_one_thread();
+    harness::registry::keep_to_one_thread();
     choice.builder.build(scene, &Need::of(rays)).ok()
 }
 

@@ -4,7 +4,7 @@
 use accel::{Need, RaySet};
 use benches::{SCENES, on_one_thread, rays, scene, structures};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use rayscale::rays::RaysId;
+use scenes::rays::RaysId;
 use std::hint::black_box;
 use std::time::Duration;
 

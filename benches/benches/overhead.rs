@@ -3,13 +3,13 @@
 
 use accel::{Geometry, Hit, Mesh, Need, RaySet, Scene};
 use benches::{on_one_thread, rays, scene};
+use harness::{registry, stats};
 use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::RayHit;
 use obvhs::rt_triangle::RtTriangle;
 use obvhs::triangle::Triangle;
 use obvhs::{BvhBuildParams, ray};
-use rayscale::rays::RaysId;
-use rayscale::{registry, stats};
+use scenes::rays::RaysId;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

@@ -2,7 +2,7 @@
 
 use benches::trace;
 use criterion::{Criterion, criterion_group, criterion_main};
-use rayscale::rays::RaysId;
+use scenes::rays::RaysId;
 
 fn primary(c: &mut Criterion) {
     trace(c, &[RaysId::Parallel, RaysId::Perspective]);

@@ -2,7 +2,7 @@
 
 use benches::trace;
 use criterion::{Criterion, criterion_group, criterion_main};
-use rayscale::rays::RaysId;
+use scenes::rays::RaysId;
 
 fn secondary(c: &mut Criterion) {
     trace(c, &[RaysId::Diffuse, RaysId::Random]);

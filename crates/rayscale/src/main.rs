@@ -1,13 +1,21 @@
 //! The command line of the suite.
 
-mod counting_allocator;
+#![forbid(unsafe_code)]
+
+mod cli;
+mod console;
+mod error;
+mod interrupt;
+mod options;
+mod verb;
+mod verbs;
 
 use std::process::ExitCode;
 
 #[global_allocator]
-static ALLOCATOR: counting_allocator::Counting = counting_allocator::Counting;
+static ALLOCATOR: heap::Counting = heap::Counting;
 
 fn main() -> ExitCode {
-    rayscale::heap::start_counting();
-    rayscale::cmd::main()
+    heap::start_counting();
+    cli::main()
 }

@@ -1,9 +1,9 @@
 //! Bad input gets a message that says what, where and what to do, and exit code 2.
 
 use crate::common::{Folder, OBJ, RAYS, rayscale};
+use harness::registry::{self, Entry};
 use predicates::prelude::*;
 use predicates::str::contains;
-use rayscale::registry::{self, Entry};
 
 /// Runs `render` on an OBJ file with this content; it must fail with this message and leave what was there.
 fn refuses_obj(content: &[u8], messages: &[&str]) {

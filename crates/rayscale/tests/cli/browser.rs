@@ -3,7 +3,7 @@
 
 use crate::common::Folder;
 use crate::records::large;
-use rayscale::report::html::{Pictures, html};
+use report::html::{Pictures, html};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -2,8 +2,8 @@
 
 use crate::common::{Folder, rayscale};
 use crate::records::large;
+use harness::record::{Record, write};
 use predicates::str::contains;
-use rayscale::record::{Record, write};
 
 fn diff(folder: &Folder, after: &Record, more: &[&str]) -> assert_cmd::assert::Assert {
     write(&folder.path("before.json"), &large()).expect("a record");

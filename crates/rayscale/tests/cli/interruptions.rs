@@ -3,7 +3,7 @@
 
 use crate::common::Folder;
 use crate::schema::of_record;
-use rayscale::record::{Record, read};
+use harness::record::{Record, read};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 use std::path::Path;

@@ -4,8 +4,8 @@
 //! The structures' places in the list choose who is slowed, so that every structure has its turn.
 
 use crate::common::{Folder, rayscale};
-use rayscale::changes::{Changes, changes};
-use rayscale::record::{Record, read};
+use harness::changes::{Changes, changes};
+use harness::record::{Record, read};
 
 const PAIRS: usize = 20;
 const PLANTED: f64 = 1.15;
@@ -55,7 +55,7 @@ fn trial(structures: &[&str], rays: &str) {
         }
         let all = changes(&before, &after);
         let shift = all.structures.iter().find(|s| s.structure == slow).expect("in both");
-        let slower = |c: &rayscale::changes::Judged| c.beyond_noise && c.ratio > 1.0;
+        let slower = |c: &harness::changes::Judged| c.beyond_noise && c.ratio > 1.0;
         let seen =
             slower(&shift.judged) || all.cells.iter().any(|c| c.structure == slow && slower(&c.judged));
         found += usize::from(seen);

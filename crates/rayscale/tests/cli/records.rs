@@ -1,8 +1,8 @@
 //! Records for tests, made up.
 
-use rayscale::clock::Clock;
-use rayscale::machine::Machine;
-use rayscale::record::*;
+use harness::clock::Clock;
+use harness::machine::Machine;
+use harness::record::*;
 
 const STRUCTURES: [(&str, f64, f64); 12] = [
     ("minmax", 9000.0, 24.0),

@@ -1,0 +1,31 @@
+//! Tells records what they say of the program: commit, profile, compiler and its flags.
+
+use std::env;
+use std::path::Path;
+use std::process::Command;
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let git = |args: &[&str]| {
+        let output = Command::new("git").arg("-C").arg(&root).args(args).output().ok()?;
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_default();
+    let dirty =
+        git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|files| !files.is_empty());
+    // Named only where it exists: cargo runs a script anew each time for a file that does not.
+    if let Some(log) =
+        git(&["rev-parse", "--git-path", "logs/HEAD"]).map(|log| root.join(log)).filter(|l| l.exists())
+    {
+        println!("cargo::rerun-if-changed={}", log.display());
+    }
+    let rustc = env::var_os("RUSTC").and_then(|rustc| Command::new(rustc).arg("--version").output().ok());
+    let rustc =
+        rustc.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned()).unwrap_or_default();
+    println!("cargo::rustc-env=RAYSCALE_GIT={commit}{}", if dirty { "+" } else { "" });
+    println!("cargo::rustc-env=RAYSCALE_RUSTC={rustc}");
+    println!("cargo::rustc-env=RAYSCALE_PROFILE={}", env::var("PROFILE").unwrap_or_default());
+    let flags = env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default().replace('\u{1f}', " ");
+    println!("cargo::rustc-env=RAYSCALE_RUSTFLAGS={flags}");
+}

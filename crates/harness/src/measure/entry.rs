@@ -1,0 +1,301 @@
+//! One ray set of a scene in one pass: the structures are warmed up and checked, then sampled.
+
+use super::build::{Absent, Built};
+use super::scene::Job;
+use super::trace::{Runner, rounds};
+use crate::answers::Answers;
+use crate::check::{Reference, compare, judge, oracle_of};
+use crate::guard::guard;
+use crate::record::{Cell, Check, Query};
+use crate::registry::Choice;
+use crate::workload::{Workload, in_time, sample, thin};
+use accel::{Accel, Builder, Counters, Geometry, Need, RaySet, Scene};
+use baselines::Brute;
+use oracle::Oracle;
+use primitives::KernelId;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// What passes leave to later ones, by ray set and structure.
+pub type Entries<'w> = BTreeMap<(String, String), Entry<'w>>;
+
+/// A structure on a ray set, between two passes.
+pub struct Entry<'w> {
+    /// Its rays: the set, or fewer of them.
+    rays: Cow<'w, RaySet>,
+    /// What it answered when it was checked; none where it failed.
+    fingerprint: Option<u64>,
+    /// Samples of builds that an earlier run left.
+    earlier_builds: Vec<u64>,
+    cell: Cell,
+}
+
+/// Brute force and the exact oracle, built when first asked for.
+pub struct References<'s> {
+    scene: &'s Scene,
+    brute: BTreeMap<KernelId, Box<dyn Accel + 's>>,
+    oracle: Option<Oracle>,
+}
+
+impl<'s> References<'s> {
+    /// None built yet.
+    pub fn new(scene: &'s Scene) -> Self {
+        Self { scene, brute: BTreeMap::new(), oracle: None }
+    }
+
+    fn brute(&mut self, kernel: KernelId) -> &dyn Accel {
+        let scene = self.scene;
+        let build =
+            || Brute::new(kernel).build(scene, &Need::GENERAL).expect("brute force serves every scene");
+        &**self.brute.entry(kernel).or_insert_with(build)
+    }
+
+    fn oracle(&mut self) -> Option<&Oracle> {
+        if let (None, Geometry::Triangles(_)) = (&self.oracle, &self.scene.geometry) {
+            self.oracle = Some(oracle_of(self.scene));
+        }
+        self.oracle.as_ref()
+    }
+}
+
+/// Reference answers for a ray set, by kernel and number of rays.
+type Checked = Vec<(KernelId, usize, Reference)>;
+
+/// Takes the samples of a pass and gives the cells as they are then; none if interrupted.
+pub fn ray_set<'w>(
+    job: &Job<'w>,
+    pass: usize,
+    workload: &'w Workload,
+    entrants: &[(&Choice, &Built)],
+    entries: &mut Entries<'w>,
+    refs: &mut References,
+) -> Option<Vec<Cell>> {
+    let mut checked = Checked::new();
+    let mut all: Vec<(Entry, Option<Answers>)> = Vec::new();
+    for (choice, built) in entrants {
+        if job.watch.interrupted() {
+            return None;
+        }
+        let name = (workload.id.clone(), choice.spec.to_string());
+        all.push(match entries.remove(&name) {
+            Some(entry) => {
+                warm_up(choice, built, &entry);
+                (entry, None)
+            }
+            None => enter(job, workload, choice, built, &mut checked, refs),
+        });
+    }
+    let mut runners = Vec::new();
+    for ((entry, first), (_, built)) in all.iter_mut().zip(entrants) {
+        match &built.accel {
+            Err(Absent::Failed(error)) => entry.cell.error = Some(error.clone()),
+            Err(Absent::Dropped) => unreachable!("every pass builds what was dropped"),
+            Ok(accel) => runners.push(Runner {
+                accel: accel.as_ref(),
+                rays: &entry.rays,
+                query: workload.query,
+                first: first.take(),
+                trace_ns: entry.cell.trace_ns.clone(),
+                error: entry.cell.error.clone(),
+            }),
+        }
+    }
+    rounds(&mut runners, (job.options, pass), job.watch)?;
+    let done: Vec<_> = runners.into_iter().map(|r| (r.trace_ns, r.first, r.error)).collect();
+    let mut done = done.into_iter();
+    let mut cells = Vec::new();
+    for ((mut entry, _), (choice, built)) in all.into_iter().zip(entrants) {
+        if let Ok(accel) = &built.accel {
+            let (trace_ns, first, error) = done.next().expect("one runner for each structure built");
+            let cell = &mut entry.cell;
+            cell.passes.push(trace_ns.len() - cell.trace_ns.len());
+            cell.trace_ns = trace_ns;
+            cell.error = error;
+            cell.build_ns = [&entry.earlier_builds[..], &built.build_ns].concat();
+            if let Some(first) = first.filter(|first| entry.fingerprint != Some(first.fingerprint())) {
+                answers_of_another_build(job, choice, &first, &mut entry, &mut checked, refs);
+            }
+            let cell = &mut entry.cell;
+            cell.summarise();
+            if job.options.counters && cell.error.is_none() && cell.counters.is_none() {
+                let count = || accel.count(&entry.rays, workload.query == Query::Occluded);
+                cell.counters =
+                    guard("counting", count).ok().flatten().map(|c| per_ray(&c, entry.rays.len()));
+            }
+        }
+        cells.push(entry.cell.clone());
+        entries.insert((workload.id.clone(), choice.spec.to_string()), entry);
+    }
+    Some(cells)
+}
+
+/// Begins with a structure: chooses its rays, traces them once and checks the answers, which are given too. Samples
+/// that an earlier run left of the same rays stay.
+fn enter<'w>(
+    job: &Job,
+    workload: &'w Workload,
+    choice: &Choice,
+    built: &Built,
+    checked: &mut Checked,
+    refs: &mut References,
+) -> (Entry<'w>, Option<Answers>) {
+    let rays = rays_for(job, workload, choice, built);
+    let mut cell = blank(job, workload, choice, built, &rays);
+    let known = job.known(workload, choice).filter(|known| known.ray_count == cell.ray_count);
+    let mut earlier_builds = Vec::new();
+    if let Some(known) = known {
+        cell.trace_ns.clone_from(&known.trace_ns);
+        cell.passes.clone_from(&known.passes);
+        earlier_builds.clone_from(&known.build_ns);
+    }
+    let mut answers = None;
+    if let Ok(accel) = &built.accel {
+        let mut first = Answers::new(workload.query, rays.len());
+        match guard("tracing", || first.trace(accel.as_ref(), &rays)) {
+            Err(error) => cell.error = Some(error),
+            Ok(()) => {
+                cell.hits = first.hits() as u64;
+                cell.plan = accel.plan();
+                cell.check = Some(check(job, choice, &rays, &first, checked, refs));
+                cell.error = verdict(choice, cell.check.as_ref());
+                answers = Some(first);
+            }
+        }
+    }
+    let fingerprint = answers.as_ref().map(Answers::fingerprint);
+    (Entry { rays, fingerprint, earlier_builds, cell }, answers)
+}
+
+/// The rays that a structure has time for.
+fn rays_for<'w>(job: &Job, workload: &'w Workload, choice: &Choice, built: &Built) -> Cow<'w, RaySet> {
+    if choice.entry.traits.thins(&workload.rays) {
+        let objects = job.scene.geometry.len();
+        let few = (job.options.linear_tests / objects.max(1) as u64).max(16) as usize;
+        return Cow::Owned(thin(&workload.rays, few));
+    }
+    match &built.accel {
+        Ok(accel) if !of_one_raster(choice, &workload.rays) => {
+            in_time(accel.as_ref(), &workload.rays, workload.query, job.options.sample_time)
+        }
+        _ => Cow::Borrowed(&workload.rays),
+    }
+}
+
+/// Whether a structure is built for just these rays and can't be asked for fewer of them.
+fn of_one_raster(choice: &Choice, rays: &RaySet) -> bool {
+    choice.entry.traits.by_need && matches!(rays, RaySet::Raster(_))
+}
+
+/// Brings a structure into the caches again. An eighth of the rays meets most of it.
+fn warm_up(choice: &Choice, built: &Built, entry: &Entry) {
+    let (Ok(accel), None) = (&built.accel, &entry.cell.error) else { return };
+    let rays = match entry.rays.as_ref() {
+        rays if of_one_raster(choice, rays) => Cow::Borrowed(rays),
+        rays => Cow::Owned(thin(rays, rays.len().div_ceil(8))),
+    };
+    let mut answers = Answers::new(entry.cell.query, rays.len());
+    // Whoever panics here does so again in the first sample, where it is recorded.
+    let _ = guard("tracing", || answers.trace(accel.as_ref(), &rays));
+}
+
+/// What another build of a structure answered is checked like the first; one of the suite's own structures may not
+/// answer differently at all.
+fn answers_of_another_build(
+    job: &Job,
+    choice: &Choice,
+    answers: &Answers,
+    entry: &mut Entry,
+    checked: &mut Checked,
+    refs: &mut References,
+) {
+    let again = check(job, choice, &entry.rays, answers, checked, refs);
+    if choice.entry.traits.own_kernel && entry.cell.error.is_none() {
+        let error = "another build of the structure gave other answers than the one that was checked";
+        entry.cell.error = verdict(choice, Some(&again)).or_else(|| Some(error.to_owned()));
+    }
+    let worse = |check: &Check| check.differences < again.differences;
+    if entry.cell.check.as_ref().is_none_or(worse) {
+        entry.cell.check = Some(again);
+    }
+}
+
+fn blank(job: &Job, workload: &Workload, choice: &Choice, built: &Built, rays: &RaySet) -> Cell {
+    Cell {
+        scene: job.scene.id.clone(),
+        rays: workload.id.clone(),
+        query: workload.query,
+        structure: choice.spec.to_string(),
+        kernel: choice.kernel().to_owned(),
+        kernel_reason: choice.reason().to_owned(),
+        threads: job.options.threads,
+        ray_count: rays.len() as u64,
+        hits: 0,
+        build_ns: built.build_ns.clone(),
+        trace_ns: Vec::new(),
+        passes: Vec::new(),
+        ns_per_ray: None,
+        bytes: built.bytes.clone(),
+        plan: String::new(),
+        counters: None,
+        check: None,
+        error: None,
+    }
+}
+
+/// Compares with brute force by the structure's kernel; a foreign structure is compared with
+/// Möller–Trumbore, and where it differs the exact oracle judges.
+fn check(
+    job: &Job,
+    choice: &Choice,
+    rays: &RaySet,
+    answers: &Answers,
+    checked: &mut Checked,
+    refs: &mut References,
+) -> Check {
+    let kernel = choice.reference_kernel();
+    let query = match answers {
+        Answers::Closest(_) => Query::Closest,
+        Answers::Occluded(_) => Query::Occluded,
+    };
+    if !checked.iter().any(|(k, len, _)| (*k, *len) == (kernel, rays.len())) {
+        let brute = refs.brute(kernel);
+        let reference = Reference::by(brute, job.scene.geometry.len(), rays, query, job.options.check_tests);
+        checked.push((kernel, rays.len(), reference));
+    }
+    let known = checked.iter().find(|(k, len, _)| (*k, *len) == (kernel, rays.len()));
+    let (_, _, reference) = known.expect("made above");
+    let different = compare(answers, reference);
+    let mut check = Check {
+        rays_checked: reference.numbers.len() as u64,
+        differences: different.len() as u64,
+        errors: None,
+    };
+    if let (false, Some(hits)) = (choice.entry.traits.own_kernel, answers.closest()) {
+        let spread = sample(reference.numbers.len(), job.options.exact_rays);
+        let most = job.options.exact_rays * 20;
+        let mut numbers: Vec<usize> = spread.into_iter().map(|j| reference.numbers[j]).collect();
+        numbers.extend(sample(different.len(), most).into_iter().map(|j| different[j]));
+        numbers.sort_unstable();
+        numbers.dedup();
+        check.errors = refs.oracle().map(|oracle| judge(oracle, rays, hits, &numbers));
+    }
+    check
+}
+
+/// One of the suite's own structures that differs from brute force is broken.
+fn verdict(choice: &Choice, check: Option<&Check>) -> Option<String> {
+    let check = check.filter(|check| choice.entry.traits.own_kernel && check.differences > 0)?;
+    Some(format!("{} of {} rays differ from brute force", check.differences, check.rays_checked))
+}
+
+fn per_ray(counters: &Counters, rays: usize) -> BTreeMap<String, f64> {
+    let Counters { words, blocks, cells, candidates, tests } = *counters;
+    let all = [
+        ("words", words),
+        ("blocks", blocks),
+        ("cells", cells),
+        ("candidates", candidates),
+        ("tests", tests),
+    ];
+    all.into_iter().map(|(name, n)| (name.to_owned(), n as f64 / rays.max(1) as f64)).collect()
+}

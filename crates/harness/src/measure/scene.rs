@@ -1,0 +1,124 @@
+//! All cells of one scene.
+
+use super::Options;
+use super::build::{Built, build_all};
+use super::entry::{Entries, References, ray_set};
+use super::watch::Watch;
+use crate::record::Cell;
+use crate::registry::Choice;
+use crate::workload::Workload;
+use accel::{Need, RaySet, Scene};
+
+/// What is to be measured on a scene.
+pub struct Job<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Ray sets.
+    pub workloads: &'a [Workload],
+    /// Structures.
+    pub choices: &'a [Choice],
+    /// How much.
+    pub options: &'a Options,
+    /// Cells of the scene that are there already, with all their passes or some.
+    pub known: &'a [Cell],
+    /// When to stop.
+    pub watch: &'a Watch,
+}
+
+impl Job<'_> {
+    /// Whether a cell is to be measured in a pass: it is served, and not there already.
+    pub fn wants(&self, workload: &Workload, choice: &Choice, pass: usize) -> bool {
+        let served = choice.entry.traits.lists || matches!(workload.rays, RaySet::Raster(_));
+        served
+            && self
+                .known(workload, choice)
+                .is_none_or(|cell| cell.error.is_none() && cell.passes.len() <= pass)
+    }
+
+    /// Whether any pass wants a cell.
+    pub fn lacks(&self, workload: &Workload, choice: &Choice) -> bool {
+        (0..self.options.passes()).any(|pass| self.wants(workload, choice, pass))
+    }
+
+    /// The cell as an earlier run left it.
+    pub fn known(&self, workload: &Workload, choice: &Choice) -> Option<&Cell> {
+        let name = choice.spec.to_string();
+        self.known.iter().find(|cell| cell.rays == workload.id && cell.structure == name)
+    }
+}
+
+/// Builds, checks and measures in passes; one cell for every structure and ray set, except lists of rays for
+/// structures that serve none. `keep` gets the cells of a ray set, as they are by then, whenever it is done in a pass
+/// (the first is 0); no ray set begins after the watch's end, and what is interrupted adds nothing to its cells.
+///
+/// Runs in the current thread pool.
+pub fn measure(job: &Job, keep: impl FnMut(&Workload, usize, Vec<Cell>)) {
+    // None is an interruption, after which there is nothing to do.
+    let _ = all_passes(job, keep);
+}
+
+fn all_passes(job: &Job, mut keep: impl FnMut(&Workload, usize, Vec<Cell>)) -> Option<()> {
+    let choices = crate::auto::resolve(job.choices, job.scene, job.workloads);
+    let job = &Job { choices: &choices, ..*job };
+    let mut references = References::new(job.scene);
+    let mut entries = Entries::new();
+    // Needs that no two ray sets share come one at a time, so that not all builds are held at once.
+    let wanted = |by: bool, workloads: &[&Workload]| -> Vec<&Choice> {
+        let lacking = |c: &&Choice| workloads.iter().any(|w| job.lacks(w, c));
+        job.choices.iter().filter(|c| by_need(c) == by).filter(lacking).collect()
+    };
+    let (lists, rasters): (Vec<_>, Vec<_>) =
+        job.workloads.iter().partition(|w| matches!(w.rays, RaySet::List(_)));
+    let general: Vec<_> = wanted(false, &[&lists[..], &rasters[..]].concat());
+    let general: Vec<_> = general.into_iter().map(|c| (c, need_of_all(c, job))).collect();
+    let for_lists: Vec<_> = wanted(true, &lists).into_iter().map(|c| (c, Need::GENERAL)).collect();
+    let (mut built, mut built_for_lists) = (Vec::new(), Vec::new());
+    let mut built_for_rasters: Vec<Vec<Built>> = job.workloads.iter().map(|_| Vec::new()).collect();
+    for pass in 0..job.options.passes() {
+        if job.watch.is_over() {
+            return None;
+        }
+        let due = (job.options, pass);
+        build_all(job.scene, &general, due, job.watch, &mut built)?;
+        build_all(job.scene, &for_lists, due, job.watch, &mut built_for_lists)?;
+        for (workload, for_raster) in job.workloads.iter().zip(&mut built_for_rasters) {
+            if job.watch.is_over() {
+                return None;
+            }
+            let mut entrants: Vec<(&Choice, &Built)> = choices_of(&general).zip(&built).collect();
+            match workload.rays {
+                RaySet::List(_) => entrants.extend(choices_of(&for_lists).zip(&built_for_lists)),
+                RaySet::Raster(_) => {
+                    let need = Need::of(&workload.rays);
+                    let wanted: Vec<_> = wanted(true, &[workload]).into_iter().map(|c| (c, need)).collect();
+                    build_all(job.scene, &wanted, due, job.watch, for_raster)?;
+                    entrants.extend(wanted.iter().map(|(c, _)| *c).zip(&*for_raster));
+                }
+            }
+            entrants.retain(|(choice, _)| job.wants(workload, choice, pass));
+            if !entrants.is_empty() {
+                let place = |choice: &Choice| job.choices.iter().position(|c| std::ptr::eq(c, choice));
+                entrants.sort_by_key(|(choice, _)| place(choice));
+                keep(workload, pass, ray_set(job, pass, workload, &entrants, &mut entries, &mut references)?);
+            }
+            for_raster.iter_mut().for_each(Built::drop_structure);
+        }
+    }
+    Some(())
+}
+
+fn choices_of<'c>(wanted: &[(&'c Choice, Need)]) -> impl Iterator<Item = &'c Choice> {
+    wanted.iter().map(|(choice, _)| *choice)
+}
+
+fn by_need(choice: &Choice) -> bool {
+    choice.entry.traits.by_need
+}
+
+fn need_of_all(choice: &Choice, job: &Job) -> Need {
+    let raster = job.workloads.iter().map(|w| Need::of(&w.rays)).find(|need| need.raster.is_some());
+    match raster {
+        Some(need) if !choice.entry.traits.lists => need,
+        _ => Need::GENERAL,
+    }
+}

@@ -1,0 +1,225 @@
+//! The one place that names all structures.
+//!
+//! An [`Entry`] says what a structure is, which settings it takes and how it is made from
+//! them. Adding a structure is adding an entry to `entries.rs`.
+
+mod build;
+mod entries;
+mod error;
+mod kernel;
+mod settings;
+
+pub use build::guarded_build;
+pub use entries::keep_to_one_thread;
+pub use error::RegistryError;
+pub use kernel::{AUTO, ChosenKernel, DEFAULT_MAX_ERROR};
+pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
+
+use accel::{Accel, Builder, Need, RaySet, Scene};
+use baselines::Brute;
+use primitives::KernelId;
+use scenes::near::near;
+use std::sync::Arc;
+
+/// A structure that can be built.
+pub struct Entry {
+    /// Its id.
+    pub id: &'static str,
+    /// What it is, in a line.
+    pub description: &'static str,
+    /// Where the method is published.
+    pub source: &'static str,
+    /// Version of the library behind it.
+    pub version: fn() -> String,
+    /// The settings it takes.
+    pub settings: &'static [Setting],
+    /// How it takes part in a comparison.
+    pub traits: Traits,
+    /// Settings worth checking besides the default ones, as `name=value,…`.
+    pub variants: &'static [&'static str],
+    /// Makes a builder.
+    pub make: fn(&Settings) -> Result<Box<dyn Builder>, RegistryError>,
+}
+
+/// How a structure takes part in a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traits {
+    /// Part of the default comparison.
+    pub default: bool,
+    /// Uses the suite's kernels (setting `kernel`): must equal brute force bit for bit.
+    pub own_kernel: bool,
+    /// Its time per ray grows with the number of objects: it gets fewer rays.
+    pub linear: bool,
+    /// What is built depends on the need: another build for every raster.
+    pub by_need: bool,
+    /// Serves lists of rays.
+    pub lists: bool,
+    /// Its memory comes from this program's allocator, so that peaks can be counted.
+    pub counted: bool,
+}
+
+impl Traits {
+    /// One of the suite's own structures.
+    pub const OWN: Self =
+        Self { default: true, own_kernel: true, linear: false, by_need: false, lists: true, counted: true };
+    /// A structure from elsewhere with a ray-triangle test of its own.
+    pub const FOREIGN: Self = Self { own_kernel: false, ..Self::OWN };
+}
+
+impl Traits {
+    /// Whether such a structure is given fewer rays than the set has. A raster that it was built for
+    /// is traced as it is.
+    pub fn thins(&self, rays: &RaySet) -> bool {
+        self.linear && !(self.by_need && matches!(rays, RaySet::Raster(_)))
+    }
+}
+
+/// A structure that this program was built without.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Absent {
+    /// Its id.
+    pub id: &'static str,
+    /// Why it is absent.
+    pub reason: String,
+}
+
+/// A structure with its settings, ready to build once its kernel is decided.
+#[derive(Clone)]
+pub struct Choice {
+    /// As asked for.
+    pub spec: StructureSpec,
+    /// What is known of it.
+    pub entry: &'static Entry,
+    /// Its ray-triangle test.
+    pub kernel: ChosenKernel,
+    /// Makes it.
+    pub builder: Arc<dyn Builder>,
+}
+
+impl Choice {
+    /// The name of the ray-triangle test: one of the suite's, `own` for a foreign structure's, or `auto` while
+    /// it is not decided.
+    pub fn kernel(&self) -> &'static str {
+        self.kernel.name()
+    }
+
+    /// Why this kernel was chosen; empty where the user did, unless it is lossy.
+    pub fn reason(&self) -> &str {
+        self.kernel.reason()
+    }
+}
+
+/// All structures of this program, in the order of reports.
+pub fn entries() -> &'static [Entry] {
+    entries::all()
+}
+
+/// The structures that this program was built without, with the reason.
+pub fn absent() -> Vec<Absent> {
+    entries::absent()
+}
+
+/// The structure of that id.
+///
+/// # Errors
+/// [`RegistryError::Unknown`] with near ids, [`RegistryError::Absent`] with the reason.
+pub fn find(id: &str) -> Result<&'static Entry, RegistryError> {
+    if let Some(entry) = entries().iter().find(|entry| entry.id == id) {
+        return Ok(entry);
+    }
+    if let Some(Absent { id, reason }) = absent().into_iter().find(|absent| absent.id == id) {
+        return Err(RegistryError::Absent { id: id.to_owned(), reason });
+    }
+    let known = entries().iter().map(|entry| entry.id).chain(absent().into_iter().map(|a| a.id));
+    Err(RegistryError::Unknown { id: id.to_owned(), near: near(id, known) })
+}
+
+/// A builder for a structure with settings.
+///
+/// # Errors
+/// Unknown or absent structures, unknown settings, bad values: [`RegistryError`].
+pub fn choose(spec: &StructureSpec) -> Result<Choice, RegistryError> {
+    let entry = find(&spec.id)?;
+    let kernel = ChosenKernel::of(entry, spec);
+    let builder = kernel.builder(entry, spec)?;
+    Ok(Choice { spec: spec.clone(), entry, kernel, builder })
+}
+
+/// As [`choose`], from text.
+///
+/// # Errors
+/// As [`choose`]; also what can't be read.
+pub fn parse(text: &str) -> Result<Choice, RegistryError> {
+    choose(&text.parse()?)
+}
+
+/// Something quick that answers what brute force would with that kernel.
+///
+/// # Panics
+/// If it can't be built for want of memory, and brute force neither.
+pub fn quick(scene: &Scene, kernel: KernelId) -> Box<dyn Accel + '_> {
+    let grid = parse(&format!("ssm:kernel={kernel}")).ok();
+    let built = grid.and_then(|choice| choice.builder.build(scene, &Need::GENERAL).ok());
+    built.unwrap_or_else(|| {
+        Brute::new(kernel).build(scene, &Need::GENERAL).expect("brute force serves every scene")
+    })
+}
+
+/// The structures of the default comparison.
+pub fn defaults() -> Vec<StructureSpec> {
+    let all = entries().iter().filter(|entry| entry.traits.default);
+    all.map(|entry| StructureSpec { id: entry.id.to_owned(), settings: Vec::new() }).collect()
+}
+
+/// The structures that pass `takes`, each by its defaults and by its variants.
+pub fn with_variants(takes: impl Fn(&Entry) -> bool) -> Vec<StructureSpec> {
+    let entries = entries().iter().filter(|entry| takes(entry));
+    let texts = entries.flat_map(|entry| {
+        std::iter::once(&"").chain(entry.variants).map(move |settings| format!("{}:{settings}", entry.id))
+    });
+    texts.map(|text| text.parse().expect("variants are settings")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_structure_is_made_by_its_id_and_by_its_variants() {
+        for entry in entries() {
+            for settings in std::iter::once(&"").chain(entry.variants) {
+                let text = format!("{}:{settings}", entry.id);
+                let choice = parse(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+                assert_eq!(choice.builder.id(), entry.id);
+                assert!(!(entry.version)().is_empty());
+            }
+        }
+    }
+
+    #[test]
+    fn ids_are_unique() {
+        let mut ids: Vec<_> =
+            entries().iter().map(|e| e.id).chain(absent().into_iter().map(|a| a.id)).collect();
+        ids.sort_unstable();
+        let count = ids.len();
+        ids.dedup();
+        assert_eq!(ids.len(), count);
+    }
+
+    #[test]
+    fn slips_get_suggestions() {
+        let error = parse("minimax").err().unwrap();
+        assert!(error.to_string().contains("near: minmax"), "{error}");
+        assert!(matches!(parse("brute:simd=mmx").err().unwrap(), RegistryError::Value { .. }));
+        assert!(matches!(parse("brute:sind=avx2").err().unwrap(), RegistryError::UnknownSetting { .. }));
+    }
+
+    #[test]
+    fn own_structures_take_a_kernel() {
+        for entry in entries() {
+            let takes = entry.settings.iter().any(|(name, _)| *name == "kernel");
+            assert_eq!(takes, entry.traits.own_kernel, "{}", entry.id);
+        }
+        assert_eq!(parse("minmax:kernel=watertight").unwrap().kernel(), "watertight");
+    }
+}

@@ -1,0 +1,69 @@
+//! Rows of the trade: time, memory and errors side by side.
+
+use super::Accuracy;
+use serde::Serialize;
+
+/// A structure with a kernel on a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Scene.
+    pub scene: String,
+    /// Structure with its settings.
+    pub structure: String,
+    /// Kernel, or `own` for a foreign structure's.
+    pub kernel: String,
+    /// Why this kernel was chosen, where that was left to the suite.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub kernel_reason: String,
+    /// Geometric mean over the timed ray sets, unless one of them failed.
+    pub ns_per_ray: Option<f64>,
+    /// Memory of structure and geometry copy.
+    pub bytes: Option<u64>,
+    /// Errors; none where nothing could be judged.
+    pub accuracy: Option<Accuracy>,
+    /// Whether no other row of the scene is as fast and as right, and better in one of them.
+    pub front: bool,
+    /// What went wrong, if anything did.
+    pub error: Option<String>,
+}
+
+impl Row {
+    /// ns per ray and errors in a million rays, where both are known.
+    pub fn point(&self) -> Option<(f64, f64)> {
+        Some((self.ns_per_ray?, self.accuracy.as_ref()?.errors_per_million()))
+    }
+}
+
+/// Marks the Pareto front of the rows of one scene.
+pub fn mark_front(rows: &mut [Row]) {
+    let points: Vec<_> = rows.iter().map(Row::point).collect();
+    for (row, point) in rows.iter_mut().zip(&points) {
+        row.front = point.is_some_and(|(ns, errors)| {
+            !points.iter().flatten().any(|(n, e)| *n <= ns && *e <= errors && (*n < ns || *e < errors))
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_is_what_nothing_beats() {
+        let row = |ns: f64, missed: u64| Row {
+            scene: "s".into(),
+            structure: "x".into(),
+            kernel: "own".into(),
+            kernel_reason: String::new(),
+            ns_per_ray: Some(ns),
+            bytes: None,
+            accuracy: Some(Accuracy { rays: 100, missed, ..Accuracy::default() }),
+            front: false,
+            error: None,
+        };
+        let mut rows = [row(1.0, 5), row(2.0, 5), row(2.0, 1), row(3.0, 0), row(4.0, 0)];
+        rows[4].ns_per_ray = None;
+        mark_front(&mut rows);
+        assert_eq!(rows.map(|row| row.front), [true, false, true, true, false]);
+    }
+}

@@ -1,0 +1,51 @@
+//! Workloads: the ray sets of a scene with what is asked of each ray.
+
+mod pace;
+mod subset;
+
+pub use pace::in_time;
+pub use subset::{pick, sample, thin};
+
+use crate::record::Query;
+use crate::registry;
+use accel::{RaySet, Scene};
+use primitives::KernelId;
+use scenes::rays::{self, RaysError, RaysId, RaysSpec};
+
+/// A ray set of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Workload {
+    /// The ray set's name.
+    pub id: String,
+    /// The rays.
+    pub rays: RaySet,
+    /// What is asked of each.
+    pub query: Query,
+}
+
+/// The workloads of a scene.
+#[derive(Debug, Default)]
+pub struct Workloads {
+    /// Those that the scene has rays for.
+    pub made: Vec<Workload>,
+    /// Ray sets that it has no rays for, and why.
+    pub left_out: Vec<(RaysId, RaysError)>,
+}
+
+/// Makes ray sets of a scene: images of `size` rows and columns, batches of as many rays.
+pub fn make(scene: &Scene, sets: &[RaysId], size: u32, seed: u64) -> Workloads {
+    let tracer = registry::quick(scene, KernelId::MollerTrumbore);
+    let mut all = Workloads::default();
+    for id in sets {
+        let spec = RaysSpec { id: *id, rows: size, cols: size, seed };
+        let query = match id.query() {
+            rays::Query::Closest => Query::Closest,
+            rays::Query::Occlusion => Query::Occluded,
+        };
+        match rays::generate(scene, &spec, tracer.as_ref()) {
+            Ok(rays) => all.made.push(Workload { id: id.to_string(), rays, query }),
+            Err(error) => all.left_out.push((*id, error)),
+        }
+    }
+    all
+}

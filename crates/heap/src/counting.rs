@@ -1,0 +1,71 @@
+//! The system's allocator, counting what passes through it.
+
+use crate::{grown, shrunk};
+use std::alloc::{GlobalAlloc, Layout, System};
+
+/// Counts bytes as asked for, before the system rounds them up, and asks for huge pages where they are many: Embree's
+/// own allocator does so, and what is compared with it shall have the same.
+pub struct Counting;
+
+/// Bytes from which on huge pages (2 MiB) are asked for.
+const MANY: usize = 4 << 20;
+
+/// Asks for huge pages behind an allocation, where the system has such advice.
+fn advise(place: *mut u8, size: usize) {
+    #[cfg(target_os = "linux")]
+    if size >= MANY && !place.is_null() {
+        const PAGE: usize = 4096;
+        let before = place.align_offset(PAGE);
+        let length = (size - before) / PAGE * PAGE;
+        // SAFETY: whole pages inside an allocation that the caller owns; the advice changes no content. Refused,
+        // it does no harm.
+        let _ = unsafe {
+            rustix::mm::madvise(place.add(before).cast(), length, rustix::mm::Advice::LinuxHugepage)
+        };
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = (place, size);
+}
+
+// SAFETY: every call is passed on unchanged to the system's allocator, whose answers are
+// returned unchanged; counting and advising neither allocate nor panic.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller's promises are those that `System` asks for.
+        let place = unsafe { System.alloc(layout) };
+        if !place.is_null() {
+            grown(layout.size());
+            advise(place, layout.size());
+        }
+        place
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: as in `alloc`.
+        let place = unsafe { System.alloc_zeroed(layout) };
+        if !place.is_null() {
+            grown(layout.size());
+            advise(place, layout.size());
+        }
+        place
+    }
+
+    unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
+        // SAFETY: as in `alloc`.
+        unsafe { System.dealloc(place, layout) };
+        shrunk(layout.size());
+    }
+
+    unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // SAFETY: as in `alloc`.
+        let new = unsafe { System.realloc(place, layout, size) };
+        if !new.is_null() {
+            advise(new, size);
+            match size.checked_sub(layout.size()) {
+                Some(more) => grown(more),
+                None => shrunk(layout.size() - size),
+            }
+        }
+        new
+    }
+}

@@ -1,0 +1,11 @@
+//! Options that verbs share.
+
+mod filter;
+mod kernel;
+mod selection;
+mod values;
+
+pub use filter::Filter;
+pub use kernel::{KernelOptions, per_million};
+pub use selection::Selection;
+pub use values::{measures, shadings};

@@ -1,0 +1,224 @@
+//! `rayscale check`: differences from brute force.
+
+use crate::console::Console;
+use crate::error::Error;
+use crate::options::Selection;
+use crate::verb::{Outcome, Verb};
+use clap::Args;
+use harness::registry::{self, StructureSpec};
+use harness::sweeps::differences::{self, Sweep, Tally};
+use harness::sweeps::leaks::{self, LeakTally};
+use harness::sweeps::oracle::{self, OraclePlan, OracleTally};
+use harness::units;
+use report::table::Table;
+use scenes::rays::RaysId;
+use serde::Serialize;
+
+/// Compare the answers of structures with brute force, bit for bit, or with exact arithmetic
+///
+/// The suite's own structures must have no difference; there the exit code is 1 otherwise. Structures with a ray-triangle
+/// test of their own are counted and not judged: `measure` judges them by exact arithmetic.
+///
+/// --oracle and --leaks check what kernels promise instead: that exact gives the true answer to every ray, and that neither exact
+/// nor watertight lets a ray out of a closed mesh.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  rayscale check
+  rayscale check --scene unit-one --structure ssm:resolution=4 --rays axis,bounds
+  rayscale check --full
+  rayscale check --oracle
+  rayscale check --oracle 20000 --scene extreme-needles --structure minmax:kernel=exact
+  rayscale check --leaks 10000000")]
+pub struct Check {
+    #[command(flatten)]
+    selection: Selection,
+    /// Own structures with all their variants, on all sets of rays, at least 10 million of them for each
+    #[arg(long)]
+    full: bool,
+    /// bmssm and ssm with the kernel exact against the oracle on so many rays over all scenes of triangles (but
+    /// extreme-offset-10m, which takes long), 2 million otherwise
+    #[arg(long, value_name = "RAYS", num_args = 0..=1, default_missing_value = "2000000")]
+    oracle: Option<u64>,
+    /// So many rays from inside closed meshes at three scales, 10 million otherwise, by bmssm and ssm with the kernels exact
+    /// and watertight, and by Embree
+    #[arg(long, value_name = "RAYS", num_args = 0..=1, default_missing_value = "10000000")]
+    leaks: Option<u64>,
+}
+
+/// What was checked.
+#[derive(Serialize)]
+struct Checks {
+    #[serde(flatten)]
+    tally: Option<Tally>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    oracle: Option<OracleTally>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    leaks: Option<LeakTally>,
+}
+
+impl Verb for Check {
+    fn run(&self, console: &Console) -> Result<Outcome, Error> {
+        let sweep = self.full || (self.oracle.is_none() && self.leaks.is_none());
+        let tally = match (sweep, self.full) {
+            (false, _) => None,
+            (true, false) => Some(plain(console, &self.selection)?),
+            (true, true) => Some(full(console, &self.selection)?),
+        };
+        let oracle = self.oracle.map(|rays| by_oracle(console, &self.selection, rays)).transpose()?;
+        let leaks = self.leaks.map(|rays| from_inside(console, &self.selection, rays)).transpose()?;
+        let checks = Checks { tally, oracle, leaks };
+        let texts = [
+            checks.tally.as_ref().map(text),
+            checks.oracle.as_ref().map(oracle_text),
+            checks.leaks.as_ref().map(leaks_text),
+        ];
+        console.result(&checks, texts.into_iter().flatten().collect::<Vec<_>>().join("\n"))?;
+        let sound = checks.tally.is_none_or(|tally| tally.is_sound())
+            && checks.oracle.is_none_or(|tally| tally.is_exact())
+            && checks.leaks.is_none_or(|tally| tally.is_tight());
+        Ok(if sound { Outcome::Done } else { Outcome::Failed })
+    }
+}
+
+/// A scene whose corners fall together on a few points: thousands of integers decide each ray, so it is judged only where it is asked for.
+const SLOW: &str = "extreme-offset-10m";
+
+/// The structures with a kernel that promises the truth, on the scenes chosen.
+fn by_oracle(console: &Console, selection: &Selection, least: u64) -> Result<OracleTally, Error> {
+    let all = || scenes::list().into_iter().map(|info| info.id).filter(|id| id != SLOW).collect();
+    let plan = OraclePlan {
+        scenes: if selection.scenes.is_empty() { all() } else { selection.scenes()? },
+        rays: selection.rays(&RaysId::ALL)?,
+        size: selection.size.unwrap_or(48),
+        seed: selection.seed,
+        least,
+    };
+    let choices = selection.structures(&specs(&["bmssm:kernel=exact", "ssm:kernel=exact"]))?;
+    Ok(console.in_pool(0, || oracle::run(&plan, &choices, |line| console.note(line)))??)
+}
+
+/// The structures with a kernel that promises not to leak, and Embree on the same rays.
+fn from_inside(console: &Console, selection: &Selection, least: u64) -> Result<LeakTally, Error> {
+    let mut all = specs(&[
+        "bmssm:kernel=watertight",
+        "bmssm:kernel=exact",
+        "ssm:kernel=watertight",
+        "ssm:kernel=exact",
+        "embree-robust",
+        "embree",
+    ]);
+    all.retain(|spec| registry::find(&spec.id).is_ok());
+    let choices = selection.structures(&all)?;
+    let seed = selection.seed;
+    Ok(console.in_pool(0, || leaks::run(least, seed, &choices, |line| console.note(line)))??)
+}
+
+fn specs(texts: &[&str]) -> Vec<StructureSpec> {
+    texts.iter().map(|text| text.parse().expect("a structure with settings")).collect()
+}
+
+/// The structures chosen on the scenes chosen.
+fn plain(console: &Console, selection: &Selection) -> Result<Tally, Error> {
+    let sweep = Sweep {
+        scenes: selection.scenes()?,
+        rays: selection.rays(&RaysId::ALL)?,
+        size: selection.size.unwrap_or(128),
+        seed: selection.seed,
+        rays_each: 0,
+        tests: 400_000_000,
+    };
+    run(console, &sweep, selection, &registry::defaults())
+}
+
+/// Rows and columns with `--full`: about ten million rays in one pass for a structure with two variants.
+const FULL_SIZE: u32 = 96;
+
+/// The suite's own structures and their variants on the scenes that hunt for errors.
+pub fn full(console: &Console, selection: &Selection) -> Result<Tally, Error> {
+    let scenes = if selection.scenes.is_empty() { differences::hunting() } else { selection.scenes()? };
+    let sweep = Sweep {
+        scenes,
+        rays: selection.rays(&RaysId::ALL)?,
+        size: selection.size.unwrap_or(FULL_SIZE),
+        seed: selection.seed,
+        rays_each: 10_000_000,
+        tests: 400_000_000,
+    };
+    let own: Vec<StructureSpec> =
+        registry::with_variants(|entry| entry.traits.own_kernel && entry.id != "brute");
+    run(console, &sweep, selection, &own)
+}
+
+fn run(
+    console: &Console,
+    sweep: &Sweep,
+    selection: &Selection,
+    otherwise: &[StructureSpec],
+) -> Result<Tally, Error> {
+    let choices = selection.structures(otherwise)?;
+    let bar = console.bar(sweep.scenes.len() as u64, "checking");
+    let tally = console.in_pool(0, || {
+        differences::run(sweep, &choices, |line| {
+            bar.inc(1);
+            bar.set_message(line.to_owned());
+            if bar.is_hidden() {
+                console.note(line);
+            }
+        })
+    })??;
+    bar.finish_and_clear();
+    Ok(tally)
+}
+
+fn text(tally: &Tally) -> String {
+    let mut table = Table::new(["structure", "rays", "differences"]);
+    for row in &tally.structures {
+        table.rows.push(vec![row.structure.clone(), units::count(row.rays), units::count(row.differences)]);
+    }
+    let mut text = table.text();
+    for finding in &tally.findings {
+        text.push_str(&format!("\n{finding}"));
+    }
+    text
+}
+
+fn oracle_text(tally: &OracleTally) -> String {
+    let mut table =
+        Table::new(["structure", "rays", "missed", "false", "wrong object", "t off by > 1 ulp", "t ulp max"]);
+    for row in &tally.structures {
+        let mut cells = vec![row.structure.clone()];
+        let counts = [tally.rays, row.missed, row.false_hits, row.wrong_object, row.wrong_t];
+        cells.extend(counts.map(units::count));
+        cells.push(format!("{:.3}", row.t_ulp_max));
+        table.rows.push(cells);
+    }
+    let (scenes, aimed, left) = (tally.scenes, units::count(tally.aimed), units::count(tally.left_out));
+    let mut text = table.text();
+    text.push_str(&format!(
+        "\n{scenes} scenes; {aimed} of the rays aimed at edges and corners; {left} left out, their t being denormal"
+    ));
+    for finding in &tally.findings {
+        text.push_str(&format!("\n{finding}"));
+    }
+    text
+}
+
+fn leaks_text(tally: &LeakTally) -> String {
+    let mut table = Table::new(["mesh", "scale", "structure", "rays", "at faces", "at edges", "at corners"]);
+    let mut add = |mesh: &str, scale: String, structure: &str, rays: u64, leaks: [u64; 3]| {
+        let mut cells = vec![mesh.to_owned(), scale, structure.to_owned(), units::count(rays)];
+        cells.extend(leaks.map(units::count));
+        table.rows.push(cells);
+    };
+    for row in &tally.rows {
+        add(&row.mesh, row.scale.to_string(), &row.structure, row.rays, row.leaks);
+    }
+    for (structure, rays, leaks) in tally.sums() {
+        add("all", String::new(), structure, rays, leaks);
+    }
+    let errors = tally
+        .rows
+        .iter()
+        .filter_map(|row| Some(format!("\n{} {}: {}", row.mesh, row.structure, row.error.as_ref()?)));
+    table.text() + &errors.collect::<String>()
+}

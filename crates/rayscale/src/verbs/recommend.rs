@@ -1,0 +1,293 @@
+//! `rayscale recommend`
+
+use crate::console::Console;
+use crate::error::Error;
+use crate::options::Selection;
+use crate::options::per_million;
+use crate::verb::{Outcome, Verb};
+use accel::{Need, Scene};
+use clap::Args;
+use harness::auto::Examiner;
+use harness::guard::guard;
+use harness::measure::{Options, Session, begin, run};
+use harness::recommend::{self, Candidate, ErrorRate, ErrorRates, Recommendation, Wish, rank};
+use harness::record::Record;
+use harness::registry::{self, Choice, StructureSpec, guarded_build};
+use harness::units;
+use harness::workload;
+use primitives::KernelId;
+use scenes::SceneSpec;
+use std::fmt::Write;
+use std::time::Duration;
+
+/// Measure quickly on your scene and say which structure to use
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Every structure is built, checked and measured on the scene, with the settings worth trying, and
+ranked by time per ray: the geometric mean over the ray sets, plus each ray's share of the build
+if --rays-per-build says how many rays share one. Uses one thread unless --threads says otherwise.
+
+Errors are counted by exact arithmetic on the rays that are traced for it; those of the exact kernel are
+proven to be none.
+
+Examples:
+  rayscale recommend model.obj
+  rayscale recommend sponza --rays shadow,diffuse --memory 64MiB
+  rayscale recommend model.obj --rays-per-build 2000000 --max-error 100")]
+pub struct Recommend {
+    /// Scene: an id, a definition or a mesh
+    scene: String,
+    /// Ray sets that matter to you
+    #[arg(long, value_name = "RAYS", value_delimiter = ',', default_value = "perspective,diffuse")]
+    rays: Vec<String>,
+    /// Memory that structure and geometry copy may take, such as 64MiB
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    memory: Option<u64>,
+    /// Wrong answers that may be given in a million rays: missed, invented or of another object
+    #[arg(long, value_name = "PER MILLION", value_parser = per_million)]
+    max_error: Option<f64>,
+    /// Rays traced for each build; otherwise the build doesn't count
+    #[arg(long, value_name = "N")]
+    rays_per_build: Option<u64>,
+}
+
+/// Bytes by a number with a unit.
+fn size(text: &str) -> Result<u64, String> {
+    let digits = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let unit = match unit.trim().to_ascii_lowercase().as_str() {
+        "" | "b" => 1.0,
+        "k" | "kib" => 1024.0,
+        "m" | "mib" => 1024.0 * 1024.0,
+        "g" | "gib" => 1024.0 * 1024.0 * 1024.0,
+        "kb" => 1e3,
+        "mb" => 1e6,
+        "gb" => 1e9,
+        _ => return Err("must be a size such as 64MiB, 500kB or 1000000".to_owned()),
+    };
+    match number.parse::<f64>() {
+        Ok(n) if n > 0.0 => Ok((n * unit) as u64),
+        _ => Err("must be a size such as 64MiB, 500kB or 1000000".to_owned()),
+    }
+}
+
+/// Settings worth trying besides the default ones.
+const SETTINGS: [(&str, &str); 4] = [
+    ("embree", "quality=high"),
+    ("embree", "quality=low"),
+    ("obvhs-cwbvh", "preset=fastest"),
+    ("obvhs-bvh2", "preset=fastest"),
+];
+
+/// Structures that test every object for every ray are candidates up to so many objects.
+const FEW_OBJECTS: usize = 2000;
+
+/// Rays judged exactly for a kernel and ray set: all of them as a rule, else a sample.
+const JUDGED: usize = 1 << 16;
+
+/// Kernels that are tried where accuracy counts, the default one first.
+const KERNELS: [KernelId; 4] =
+    [KernelId::MollerTrumbore, KernelId::Watertight, KernelId::Exact, KernelId::Quantised];
+
+impl Verb for Recommend {
+    fn run(&self, console: &Console) -> Result<Outcome, Error> {
+        let selection = Selection { rays: self.rays.clone(), ..Selection::default() };
+        let rays = selection.rays(&[])?;
+        let spec: SceneSpec = self.scene.parse()?;
+        let scene = scenes::load(&spec)?;
+        let choices = choices(&scene, self.max_error.is_some())?;
+        let session = Session {
+            scenes: vec![self.scene.clone()],
+            rays,
+            size: 192,
+            seed: 1,
+            options: quick(console, self.rays_per_build.is_some()),
+            ..Session::default()
+        };
+        console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
+        let wish = Wish {
+            memory: self.memory,
+            max_error: self.max_error.map(|rate| rate / 1e6),
+            rays_per_build: self.rays_per_build.map(|n| n as f64),
+        };
+        let (record, errors) = console.in_pool(1, || {
+            let record =
+                run(&session, &choices, begin(&session, &choices), |line| tell(console, line), |_| {});
+            let errors =
+                if self.max_error.is_some() { errors(&session, &scene, &choices) } else { ErrorRates::new() };
+            (record, errors)
+        })?;
+        let record = record?;
+        let ranking = rank(&record, &errors, &wish);
+        console.result(
+            &serde_json::json!({ "scene": scene.id, "wish": wish, "recommendation": ranking }),
+            in_words(&record, &wish, &ranking),
+        )?;
+        Ok(if ranking.fitting.is_empty() { Outcome::Failed } else { Outcome::Done })
+    }
+}
+
+/// Tells of scenes and ray sets; further passes are no news.
+fn tell(console: &Console, line: &str) {
+    if !line.starts_with("    ") {
+        console.note(line);
+    }
+}
+
+fn quick(console: &Console, builds_count: bool) -> Options {
+    let usual = Options::default();
+    Options {
+        threads: console.threads().unwrap_or(1),
+        passes: 2,
+        rounds: 7,
+        least_rounds: 3,
+        // Short for each, rather than a limit of time for all, after which some would have no figure.
+        cell_time: Duration::from_millis(150),
+        sample_time: Duration::from_millis(400),
+        build_rounds: if builds_count { 3 } else { 1 },
+        least_builds: 2,
+        check_tests: usual.check_tests / 4,
+        exact_rays: 200,
+        ..usual
+    }
+}
+
+/// Every structure by default, some with other settings too; other kernels where accuracy counts.
+fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
+    let mut specs: Vec<StructureSpec> = registry::defaults();
+    specs.retain(|spec| {
+        scene.geometry.len() <= FEW_OBJECTS
+            || !registry::find(&spec.id).is_ok_and(|entry| entry.traits.linear)
+    });
+    let here = |id: &str| registry::find(id).is_ok();
+    for (id, settings) in SETTINGS.iter().filter(|(id, _)| here(id)) {
+        specs.push(format!("{id}:{settings}").parse()?);
+    }
+    if accuracy {
+        for id in ["bmssm", "ssm"].into_iter().filter(|id| here(id)) {
+            for kernel in &KERNELS[1..] {
+                specs.push(format!("{id}:kernel={kernel}").parse()?);
+            }
+        }
+    }
+    specs.iter().map(|spec| Ok(registry::choose(spec)?)).collect()
+}
+
+/// Wrong answers of the suite's kernels, as for the kernel `auto`, and of structures with a test of their own.
+fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
+    let mut all = ErrorRates::new();
+    let workloads = workload::make(scene, &session.rays, session.size, session.seed).made;
+    let mut examiner = Examiner::new(scene, &workloads, JUDGED * workloads.len());
+    let mut enter = |name: &str, rates: Vec<ErrorRate>| {
+        all.extend(workloads.iter().zip(rates).map(|(w, rate)| ((name.to_owned(), w.id.clone()), rate)));
+    };
+    for kernel in KERNELS {
+        enter(
+            kernel.id(),
+            match kernel {
+                KernelId::Exact => vec![ErrorRate::NONE; workloads.len()],
+                _ => examiner.examine(kernel).iter().map(ErrorRate::seen).collect(),
+            },
+        );
+    }
+    // Those that serve one image only are left to the checks of their cells.
+    for choice in choices.iter().filter(|c| !c.entry.traits.own_kernel && c.entry.traits.lists) {
+        // Whoever can't be built, or panics, has said so where it was measured.
+        let Ok(accel) = guarded_build(choice, scene, &Need::GENERAL) else { continue };
+        if let Ok(wrong) = guard("tracing", || examiner.examine_structure(accel.as_ref())) {
+            enter(&choice.spec.to_string(), wrong.iter().map(ErrorRate::seen).collect());
+        }
+    }
+    all
+}
+
+fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
+    let mut text = String::new();
+    let settings = |structure: &str| {
+        record.structures.iter().find(|s| s.id == structure).map(|s| s.settings.clone()).unwrap_or_default()
+    };
+    let width =
+        ranking.fitting.iter().chain(&ranking.others).map(|c| c.structure.len()).max().unwrap_or(9).max(9);
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        text,
+        "    {:width$}  {:>9}  {:>9}  {:>10}  wrong answers",
+        "structure", "per ray", "build", "memory"
+    );
+    for (i, c) in ranking.fitting.iter().enumerate() {
+        let _ = writeln!(text, "{:>2}. {}", i + 1, row(c, width));
+    }
+    for c in &ranking.others {
+        let _ = writeln!(text, " –  {}  ({})", row(c, width), c.misfits.join("; "));
+    }
+    for (structure, reason) in &ranking.unfit {
+        let _ = writeln!(text, " –  {structure:width$}  {reason}");
+    }
+    let sets = record.ray_sets().join(" and ");
+    let _ = match (&ranking.fitting[..], &ranking.others[..]) {
+        ([best, rest @ ..], _) => {
+            let build = if wish.rays_per_build.is_some() { " with its share of the build" } else { "" };
+            let gap = rest.first().map_or(String::new(), |next| {
+                let ratio = next.cost / best.cost;
+                let next = &next.structure;
+                if ratio < 1.05 {
+                    format!("; {next} is as good within 5 %")
+                } else {
+                    format!("; {next} takes {ratio:.2} times as long")
+                }
+            });
+            let open = wish.max_error.zip(best.error).filter(|(limit, error)| error.bound > *limit);
+            let open = open.map_or(String::new(), |(_, error)| {
+                format!(
+                    "\nThe rays looked at do not rule out that {} of its answers are wrong; only the kernel `exact` is proven.",
+                    recommend::per_million(error.bound)
+                )
+            });
+            write!(
+                text,
+                "\nUse `{}`: the least time per ray{build} on {sets} rays of all that fit ({}){gap}.{open}\nIts settings: {}",
+                best.structure,
+                units::time(best.cost),
+                settings(&best.structure)
+            )
+        }
+        ([], [nearest, ..]) => write!(
+            text,
+            "\nNothing fits. `{}` comes nearest: {}.\nIts settings: {}",
+            nearest.structure,
+            nearest.misfits.join("; "),
+            settings(&nearest.structure)
+        ),
+        ([], []) => write!(text, "\nNothing could be measured."),
+    };
+    text
+}
+
+fn row(c: &Candidate, width: usize) -> String {
+    let error = match c.error {
+        Some(ErrorRate::NONE) => "none".to_owned(),
+        Some(ErrorRate { share: 0.0, .. }) => "none seen".to_owned(),
+        Some(ErrorRate { share, .. }) => recommend::per_million(share),
+        None => String::new(),
+    };
+    let (ns, build) = (units::time(c.ns), units::time(c.build_ns));
+    let bytes = units::bytes(c.bytes);
+    format!("{:width$}  {ns:>9}  {build:>9}  {bytes:>10}  {error}", c.structure).trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_have_units() {
+        for (text, bytes) in
+            [("64MiB", 64 << 20), ("1.5 GiB", 3 << 29), ("500kB", 500_000), ("7", 7), ("2k", 2048)]
+        {
+            assert_eq!(size(text), Ok(bytes), "{text}");
+        }
+        for text in ["", "MiB", "0", "-1", "1 parsec", "1..2k"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Reports of a known record.
+
+use super::*;
+use harness::grouped::Measure;
+use harness::testing;
+
+#[test]
+fn tables_have_a_place_for_everything() {
+    let table = table::figures(&testing::record().cells, Measure::Trace);
+    assert_eq!(table.head, ["scene, rays", "a", "b", "c"]);
+    assert_eq!(table.rows[0], ["one parallel", "10.0", "20.0", "5.00"]);
+    assert_eq!(table.rows[1], ["one random", "20.0", "40.0", "failed"]);
+    assert_eq!(table.rows.len(), 4);
+    let text = table.text();
+    let ends: Vec<_> = text.lines().take(2).map(|line| line.chars().count()).collect();
+    assert_eq!(ends[0], ends[1], "columns end together:\n{text}");
+}
+
+#[test]
+fn the_report_says_what_was_run_and_what_failed() {
+    let report = markdown(&testing::record());
+    for part in [
+        "`rayscale measure`",
+        "FTZ off",
+        "Rasters: geometric means of ratios to `a` over the 2 cells",
+        "Lists of rays: geometric means of ratios to `a` over the 1 cells that all share (1 left out)",
+        "| c | 0.500 |",
+        "| one | 1,000 | triangles |",
+        "`embree` was left out: not here",
+        "`c` on one random: it fell over",
+        "ν_mem",
+    ] {
+        assert!(report.contains(part), "no `{part}` in:\n{report}");
+    }
+}
+
+#[test]
+fn csv_has_a_row_for_every_cell() {
+    let record = testing::record();
+    let mut out = Vec::new();
+    write_csv(&record, &mut out).unwrap();
+    let mut rows = ::csv::Reader::from_reader(out.as_slice());
+    let head = rows.headers().unwrap().clone();
+    let place = |name: &str| head.iter().position(|h| h == name).unwrap();
+    let rows: Vec<_> = rows.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), record.cells.len());
+    assert_eq!(&rows[5][place("error")], "it fell over");
+    assert_eq!(rows[0][place("ns_per_ray_median")].parse::<f64>().unwrap(), 10.0);
+    assert_eq!(&rows[0][place("missed")], "", "not judged is not zero");
+}
+
+#[test]
+fn only_what_lies_between_the_markers_changes() {
+    let text = format!("before\n{BEGIN}\nold\n{END}\nafter\n");
+    let new = splice(&text, "new").unwrap();
+    assert_eq!(new, format!("before\n{BEGIN}\nnew\n{END}\nafter\n"));
+    assert_eq!(splice(&new, "new").unwrap(), new);
+    for bad in [format!("{END}\n{BEGIN}"), BEGIN.to_owned(), String::new(), format!("{text}{text}")] {
+        assert_eq!(splice(&bad, "new"), Err(SpliceError));
+    }
+    let summary = summary(&testing::record(), "rayscale report record.json --splice README.md");
+    assert!(summary.contains("--splice README.md") && summary.contains("| c | 0.500 |"));
+}
