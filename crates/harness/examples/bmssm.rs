@@ -4,7 +4,6 @@
 
 use accel::{Builder, Need, Ray, RaySet, Vec3};
 use bmssm::fast::Bmssm;
-use scenes;
 use scenes::rays::perspective;
 use std::error::Error;
 

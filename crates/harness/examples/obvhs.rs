@@ -4,7 +4,6 @@
 
 use accel::{Builder, Need, Ray, RaySet, Vec3};
 use adapter_obvhs::{ObvhsBuilder, Variant};
-use scenes;
 use scenes::rays::perspective;
 use std::error::Error;
 

@@ -3,7 +3,6 @@
 //! `cargo run --release --example ssm_list`
 
 use accel::{Builder, Need, Ray, RaySet, Vec3};
-use scenes;
 use scenes::rays::perspective;
 use std::error::Error;
 

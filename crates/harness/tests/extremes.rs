@@ -7,8 +7,8 @@ use harness::check::oracle_of;
 use harness::registry;
 use oracle::{Verdict, classify};
 use primitives::KernelId;
+use scenes::SceneSpec;
 use scenes::rays::{RaysId, RaysSpec, generate};
-use scenes::{self, SceneSpec};
 
 fn load(id: &str) -> Scene {
     scenes::load(&id.parse::<SceneSpec>().unwrap()).unwrap()

@@ -1,7 +1,7 @@
 //! One ray set of a scene in one pass: the structures are warmed up and checked, then sampled.
 
 use super::build::{Absent, Built};
-use super::scene::Job;
+use super::job::Job;
 use super::trace::{Runner, rounds};
 use crate::answers::Answers;
 use crate::check::{Reference, compare, judge, oracle_of};

@@ -8,6 +8,7 @@
 
 mod build;
 mod entry;
+mod job;
 mod memory;
 mod options;
 mod resume;
@@ -19,10 +20,11 @@ mod tests;
 mod trace;
 mod watch;
 
+pub use job::Job;
 pub use memory::{RESOLUTIONS, memory_rows};
 pub use options::Options;
 pub use resume::{ResumeError, resume};
 pub use run::{SessionError, run};
-pub use scene::{Job, measure};
+pub use scene::measure;
 pub use session::{Session, begin};
 pub use watch::Watch;

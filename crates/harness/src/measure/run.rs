@@ -1,8 +1,9 @@
 //! A whole run: scenes by name to a record.
 
+use super::job::Job;
 use super::memory::{RESOLUTIONS, memory_rows};
 use super::resume::ResumeError;
-use super::scene::{Job, measure};
+use super::scene::measure;
 use super::{Options, Session};
 use crate::record::{Cell, Record, SceneEntry, Skipped};
 use crate::registry::Choice;
@@ -21,7 +22,7 @@ pub enum SessionError {
     Resume(#[from] ResumeError),
 }
 
-/// Measures what `record` lacks, which is a new one ([`begin`]) or one to go on with ([`super::resume`]). `tell` gets
+/// Measures what `record` lacks, which is a new one ([`super::begin`]) or one to go on with ([`super::resume`]). `tell` gets
 /// a line for every scene, indented ones for its ray sets and, further in, for further passes over them; `keep` gets the record
 /// after every ray set of every pass. What can't be done is in
 /// the record with its reason.

@@ -1,51 +1,12 @@
 //! All cells of one scene.
 
-use super::Options;
 use super::build::{Built, build_all};
 use super::entry::{Entries, References, ray_set};
-use super::watch::Watch;
+use super::job::Job;
 use crate::record::Cell;
 use crate::registry::Choice;
 use crate::workload::Workload;
-use accel::{Need, RaySet, Scene};
-
-/// What is to be measured on a scene.
-pub struct Job<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// Ray sets.
-    pub workloads: &'a [Workload],
-    /// Structures.
-    pub choices: &'a [Choice],
-    /// How much.
-    pub options: &'a Options,
-    /// Cells of the scene that are there already, with all their passes or some.
-    pub known: &'a [Cell],
-    /// When to stop.
-    pub watch: &'a Watch,
-}
-
-impl Job<'_> {
-    /// Whether a cell is to be measured in a pass: it is served, and not there already.
-    pub fn wants(&self, workload: &Workload, choice: &Choice, pass: usize) -> bool {
-        let served = choice.entry.traits.lists || matches!(workload.rays, RaySet::Raster(_));
-        served
-            && self
-                .known(workload, choice)
-                .is_none_or(|cell| cell.error.is_none() && cell.passes.len() <= pass)
-    }
-
-    /// Whether any pass wants a cell.
-    pub fn lacks(&self, workload: &Workload, choice: &Choice) -> bool {
-        (0..self.options.passes()).any(|pass| self.wants(workload, choice, pass))
-    }
-
-    /// The cell as an earlier run left it.
-    pub fn known(&self, workload: &Workload, choice: &Choice) -> Option<&Cell> {
-        let name = choice.spec.to_string();
-        self.known.iter().find(|cell| cell.rays == workload.id && cell.structure == name)
-    }
-}
+use accel::{Need, RaySet};
 
 /// Builds, checks and measures in passes; one cell for every structure and ray set, except lists of rays for
 /// structures that serve none. `keep` gets the cells of a ray set, as they are by then, whenever it is done in a pass

@@ -1,0 +1,45 @@
+//! What is to be measured on a scene, and what of it is there already.
+
+use super::{Options, Watch};
+use crate::record::Cell;
+use crate::registry::Choice;
+use crate::workload::Workload;
+use accel::{RaySet, Scene};
+
+/// What is to be measured on a scene.
+pub struct Job<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Ray sets.
+    pub workloads: &'a [Workload],
+    /// Structures.
+    pub choices: &'a [Choice],
+    /// How much.
+    pub options: &'a Options,
+    /// Cells of the scene that are there already, with all their passes or some.
+    pub known: &'a [Cell],
+    /// When to stop.
+    pub watch: &'a Watch,
+}
+
+impl Job<'_> {
+    /// Whether a cell is to be measured in a pass: it is served, and not there already.
+    pub fn wants(&self, workload: &Workload, choice: &Choice, pass: usize) -> bool {
+        let served = choice.entry.traits.lists || matches!(workload.rays, RaySet::Raster(_));
+        served
+            && self
+                .known(workload, choice)
+                .is_none_or(|cell| cell.error.is_none() && cell.passes.len() <= pass)
+    }
+
+    /// Whether any pass wants a cell.
+    pub fn lacks(&self, workload: &Workload, choice: &Choice) -> bool {
+        (0..self.options.passes()).any(|pass| self.wants(workload, choice, pass))
+    }
+
+    /// The cell as an earlier run left it.
+    pub fn known(&self, workload: &Workload, choice: &Choice) -> Option<&Cell> {
+        let name = choice.spec.to_string();
+        self.known.iter().find(|cell| cell.rays == workload.id && cell.structure == name)
+    }
+}
