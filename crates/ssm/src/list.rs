@@ -105,7 +105,7 @@ struct Built<O, I> {
 impl<O: Objects, I: Id> Built<O, I> {
     fn new(objects: O, settings: &Settings) -> Result<Self, BuildError> {
         let bounds = crate::resolution::bounds(&objects, |_| true);
-        let grid = crate::resolution::grid(ID, settings, bounds, objects.len())?;
+        let grid = crate::resolution::grid(ID, settings.resolution, bounds, objects.len())?;
         let limit = Limit::of(ID, settings);
         let cells = limit.cells(u128::from(grid.cells()), (size_of::<I>() + 4) as u128)?;
         let bytes = |ids: u64| {

@@ -1,6 +1,5 @@
 //! How many slices a grid has on each axis.
 
-use crate::Settings;
 use accel::grid::Grid;
 use accel::{Aabb, BuildError, Objects, Vec3};
 use rayon::prelude::*;
@@ -81,17 +80,17 @@ pub(crate) fn bounds<O: Objects>(objects: &O, wanted: impl Fn(u32) -> bool + Syn
     if all.is_empty() { Aabb { min: Vec3::ZERO, max: Vec3::ONE } } else { all }
 }
 
-/// The grid that the settings ask for.
+/// The grid that the rule gives.
 ///
 /// # Errors
 /// [`BuildError::Setting`] if its resolution is out of range.
 pub(crate) fn grid(
     structure: &str,
-    settings: &Settings,
+    resolution: Resolution,
     bounds: Aabb,
     objects: usize,
 ) -> Result<Grid, BuildError> {
-    let slices = settings.resolution.slices(&bounds, objects);
+    let slices = resolution.slices(&bounds, objects);
     Grid::new(bounds, slices).map_err(|error| BuildError::Setting {
         structure: structure.into(),
         setting: "resolution".into(),

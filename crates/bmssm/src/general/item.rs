@@ -1,6 +1,6 @@
 //! Boxes in the making of an order.
 
-use super::maps::UnitBox;
+use super::unit_box::UnitBox;
 use accel::grid::Grid;
 use accel::{Aabb, Objects, Vec3, filled, morton};
 use lanes::{Level, Simd, Task};

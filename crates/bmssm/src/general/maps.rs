@@ -1,31 +1,13 @@
 //! The binary maps of one block: a bit per object in each slice (Skala 1993, §2, §5).
 
 use super::item::Item;
-use accel::grid::MARGIN;
+use super::unit_box::UnitBox;
 use lanes::path::{Path, SLICES, TRIM};
 use lanes::{BLOCK, Simd};
 
 /// By how much objects are registered wider, in slices: more than the rounding of a walk within the
 /// block, and more than [`TRIM`].
 const LOCAL_MARGIN: f32 = 4.0 * TRIM;
-
-/// A box in the unit coordinates of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct UnitBox {
-    /// Least coordinates.
-    pub min: [f32; 3],
-    /// Greatest coordinates.
-    pub max: [f32; 3],
-}
-
-impl UnitBox {
-    /// The box widened by the margin of [`accel::grid`].
-    #[inline]
-    pub fn widened(&self) -> Self {
-        let margin = MARGIN as f32;
-        Self { min: self.min.map(|v| v - margin), max: self.max.map(|v| v + margin) }
-    }
-}
 
 /// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be
 /// uniform (Skala 1993, abstract).

@@ -7,6 +7,7 @@ mod order;
 mod split;
 mod trace;
 mod tree;
+mod unit_box;
 
 use accel::grid::Grid;
 use accel::{Count, Footprint, Hit, NoCount, Ray, vec_bytes};

@@ -262,7 +262,7 @@ impl Task for Cut<'_, '_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::maps::UnitBox;
+    use super::super::unit_box::UnitBox;
     use super::*;
 
     fn point(number: u32, at: [f32; 3]) -> Item {

@@ -2,7 +2,7 @@
 //! SAH-based Bounding Volume Hierarchies*, IEEE Symposium on Interactive Ray Tracing, 2007).
 
 use super::item::{Extremes, Item, whole};
-use super::maps::UnitBox;
+use super::unit_box::UnitBox;
 use lanes::{Simd, Task};
 
 /// What splits weigh.

@@ -4,8 +4,8 @@
 //! there are few of, sort out sixteen children in one go and say where the ray enters each.
 
 use super::item::{Extremes, Item};
-use super::maps::UnitBox;
 use super::split::{Divide, Left, Scratch, Shape};
+use super::unit_box::UnitBox;
 use lanes::{Level, ROW, Row};
 use rayon::prelude::*;
 

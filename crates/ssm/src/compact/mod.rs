@@ -129,7 +129,7 @@ impl<O: PackedObjects> Built<O> {
         let settings = &ssm.settings;
         let Order { slots, apart, bounds } = order::order(&objects);
         let others = slots.len() - if apart { GROUP } else { 0 };
-        let grid = crate::resolution::grid(ID, settings, bounds, others)?;
+        let grid = crate::resolution::grid(ID, settings.resolution, bounds, others)?;
         let mut field = Field::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
         let limit = Limit::of(ID, settings);
         let bricks = limit.cells(field.bricks() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
