@@ -13,6 +13,7 @@ pub mod grid;
 mod memory;
 pub mod morton;
 mod objects;
+pub mod parallel;
 mod ray;
 mod rayset;
 mod scene;

@@ -1,19 +1,20 @@
 //! How much memory a structure may take, and taking it.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
+use crate::parallel::repeat_n;
 
 /// A vector of equal values, written by all threads of the current pool: its memory is new to the process as a rule, and the
 /// system clears each page when it is first written to.
 pub fn filled<T: Clone + Send>(value: T, len: usize) -> Vec<T> {
     const TASK: usize = 1 << 12;
-    rayon::iter::repeat_n(value, len).with_min_len(TASK).collect()
+    repeat_n(value, len).with_min_len(TASK).collect()
 }
 
 /// The elements of all vectors in order, moved by all threads of the current pool.
 pub fn concatenated<T: Copy + Send + Sync>(parts: &[Vec<T>]) -> Vec<T> {
     let Some(first) = parts.iter().find_map(|part| part.first()) else { return Vec::new() };
     let len = parts.iter().map(Vec::len).sum();
-    if rayon::current_num_threads() == 1 || size_of::<T>() * len < WORTH_SHARING {
+    if crate::parallel::threads() == 1 || size_of::<T>() * len < WORTH_SHARING {
         return parts.concat();
     }
     let mut all = filled(*first, len);

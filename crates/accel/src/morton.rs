@@ -1,7 +1,7 @@
 //! Orders along a Morton curve (G. M. Morton, 1966): interleaved coordinates, and the sort that
 //! they need.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Bits of each of three coordinates in a key.
@@ -38,7 +38,7 @@ pub fn sort_by_key(mut keys: Vec<u64>) -> Vec<u64> {
         keys.sort_by_key(|key| key >> 32);
         return keys;
     }
-    if keys.len() < PARALLEL || rayon::current_num_threads() == 1 {
+    if keys.len() < PARALLEL || crate::parallel::threads() == 1 {
         return on_one_thread(keys);
     }
     on_all_threads(keys)
@@ -88,7 +88,7 @@ fn all_alike(counts: &[u32; VALUES], keys: usize) -> bool {
 /// another of the same buffer.
 fn on_all_threads(keys: Vec<u64>) -> Vec<u64> {
     let len = keys.len();
-    let part = len.div_ceil(rayon::current_num_threads());
+    let part = len.div_ceil(crate::parallel::threads());
     let mut keys: Vec<AtomicU64> = keys.into_iter().map(AtomicU64::new).collect();
     let mut sorted: Vec<AtomicU64> =
         (0..len).into_par_iter().with_min_len(VALUES).map(|_| AtomicU64::new(0)).collect();

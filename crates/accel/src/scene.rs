@@ -1,8 +1,8 @@
 //! Scenes: what there is to be hit.
 
+use crate::parallel::prelude::*;
 use crate::{Aabb, Vec3};
 use glam::Vec3A;
-use rayon::prelude::*;
 
 /// Triangles looked at by one task.
 const CHUNK: usize = 1 << 14;

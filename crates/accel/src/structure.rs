@@ -1,7 +1,7 @@
 //! The contract of acceleration structures.
 
+use crate::parallel::prelude::*;
 use crate::{Footprint, Hit, Ray, RaySet, Scene};
-use rayon::prelude::*;
 
 /// A built acceleration structure.
 ///
@@ -61,7 +61,7 @@ pub fn for_each_ray<T: Send>(rays: &RaySet, out: &mut [T], of: impl Fn(&Ray) -> 
             *out = of(&rays.ray(chunk * CHUNK + i));
         }
     };
-    if rayon::current_num_threads() == 1 {
+    if crate::parallel::threads() == 1 {
         out.chunks_mut(CHUNK).enumerate().for_each(serve);
     } else {
         out.par_chunks_mut(CHUNK).enumerate().for_each(serve);

@@ -1,9 +1,9 @@
 //! Brute force: every object tested for every ray.
 
+use accel::parallel::prelude::*;
 use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Need, Ray, RaySet, Scene};
 use lanes::{BLOCK, Blocks, Level, PackedObjects, Simd, Task};
 use primitives::{KernelId, WithObjects};
-use rayon::prelude::*;
 
 /// Builds the reference: no structure at all, every object tested for every ray.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 
 use crate::Settings;
 use accel::BuildError;
-use rayon::prelude::*;
+use accel::parallel::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// For each cell a list of references, one list behind another.
@@ -61,7 +61,7 @@ pub(crate) fn register(
     cells_of: impl Fn(u32, &mut Vec<u32>) + Sync,
 ) -> Result<Lists, BuildError> {
     limit.check(bytes(0))?;
-    let alone = rayon::current_num_threads() == 1;
+    let alone = accel::parallel::threads() == 1;
     let add = |counter: &AtomicU32, n: u32| {
         if alone {
             // No lock prefix where nobody else looks.

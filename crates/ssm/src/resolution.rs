@@ -1,8 +1,8 @@
 //! How many slices a grid has on each axis.
 
 use accel::grid::Grid;
+use accel::parallel::prelude::*;
 use accel::{Aabb, BuildError, Objects, Vec3};
-use rayon::prelude::*;
 use std::fmt;
 
 /// The rule by which a grid's resolution is chosen.

@@ -3,9 +3,9 @@
 use super::detail::Detail;
 use super::{ImageMaps, SpaceMaps};
 use accel::dda::Walk;
+use accel::parallel::prelude::*;
 use accel::{Accel, Count, Counters, Footprint, Hit, Nearest, NoCount, Ray, RaySet};
 use lanes::{Level, Simd, Task};
-use rayon::prelude::*;
 
 /// Rays traced by one task of the thread pool.
 const CHUNK: usize = 1024;

@@ -3,9 +3,9 @@
 use super::Plan;
 use crate::general::General;
 use crate::raster::RasterMaps;
+use accel::parallel::prelude::*;
 use accel::{Accel, Counters, Footprint, Hit, Ray, RaySet};
 use lanes::PackedObjects;
-use rayon::prelude::*;
 
 /// What a plan built.
 pub(super) struct Built<O: PackedObjects> {

@@ -2,9 +2,9 @@
 
 use super::unit_box::UnitBox;
 use accel::grid::Grid;
+use accel::parallel::prelude::*;
 use accel::{Aabb, Objects, Vec3, filled, morton};
 use lanes::{Level, Simd, Task};
-use rayon::prelude::*;
 
 /// A box, the number of what is in it, and how many objects that is.
 #[derive(Clone, Copy, Debug)]

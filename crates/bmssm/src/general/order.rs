@@ -5,9 +5,9 @@ use super::Settings;
 use super::item::{Extremes, Item, is_large};
 use super::maps::BlockMaps;
 use super::split::{Divide, Left, Scratch, Shape};
+use accel::parallel::prelude::*;
 use accel::{concatenated, filled, morton};
 use lanes::{BLOCK, EMPTY_SLOT, Level, Simd, Task};
-use rayon::prelude::*;
 
 /// The objects in order, block by block.
 pub struct Order {
@@ -160,8 +160,11 @@ fn split<'c>(shape: &Shape, clusters: &'c mut [Item], mut scratch: Scratch, simd
     let (left, right) = clusters.split_at_mut(at);
     let (left, right) = ((left, scratch.take(at)), (right, scratch));
     let halve = |(clusters, scratch)| split(shape, clusters, scratch, simd);
-    let (mut parts, rest) =
-        if parallel { rayon::join(|| halve(left), || halve(right)) } else { (halve(left), halve(right)) };
+    let (mut parts, rest) = if parallel {
+        accel::parallel::join(|| halve(left), || halve(right))
+    } else {
+        (halve(left), halve(right))
+    };
     parts.extend(rest);
     parts
 }

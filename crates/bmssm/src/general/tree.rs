@@ -6,8 +6,8 @@
 use super::item::{Extremes, Item};
 use super::split::{Divide, Left, Scratch, Shape};
 use super::unit_box::UnitBox;
+use accel::parallel::prelude::*;
 use lanes::{Level, ROW, Row};
-use rayon::prelude::*;
 
 /// Most children of a node.
 pub const WIDTH: usize = ROW;

@@ -3,9 +3,9 @@
 use super::maps::{Block, GROUP, GROUPS, TileMaps};
 use super::order::{Shown, shown, sorted};
 use super::{RasterMaps, Settings, THICKNESS};
+use accel::parallel::prelude::*;
 use accel::{Raster, concatenated, filled};
 use lanes::{BLOCK, EMPTY_SLOT, PackedObjects, Simd, Task, prefetch};
-use rayon::prelude::*;
 
 /// Blocks handled by one task.
 const CHUNK: usize = 64;

@@ -3,9 +3,9 @@
 use super::{Settings, THICKNESS};
 use crate::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
+use accel::parallel::prelude::*;
 use accel::{Aabb, Objects, Projection, Raster, concatenated};
 use lanes::{Level, Simd, Task};
-use rayon::prelude::*;
 
 /// Where the image shows an object.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,10 +2,10 @@
 
 use super::maps::GROUPS;
 use super::{RasterMaps, THICKNESS};
+use accel::parallel::prelude::*;
 use accel::{Common, Count, Counters, Hit, Nearest, NoCount};
 use lanes::packet::{NearestPacket, Packet};
 use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Simd, Task};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Pixels where two slices meet.
@@ -65,7 +65,7 @@ impl<O: PackedObjects> RasterMaps<O> {
             let band = Band { maps: self, row: row as u32, hits, count: C::default() };
             self.settings.simd.run(band)
         };
-        if rayon::current_num_threads() == 1 {
+        if accel::parallel::threads() == 1 {
             hits.chunks_mut(band).enumerate().map(trace).collect()
         } else {
             hits.par_chunks_mut(band).enumerate().map(trace).collect()

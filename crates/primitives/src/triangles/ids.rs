@@ -1,7 +1,7 @@
 //! The numbers of packed objects in as few bytes as they need.
 
+use accel::parallel::prelude::*;
 use lanes::EMPTY_SLOT;
-use rayon::prelude::*;
 
 /// Numbers by slot: three bytes each where all are below 2²⁴ − 1, else four.
 #[derive(Clone, Debug)]

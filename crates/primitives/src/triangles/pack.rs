@@ -3,9 +3,9 @@
 use super::ids::Ids;
 use super::lattice::ShortRows;
 use super::{CORNER_ROWS, Kernel, TriangleBlocks, Triangles};
+use accel::parallel::prelude::*;
 use accel::{Mesh, filled};
 use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, prefetch};
-use rayon::prelude::*;
 
 /// Groups by which memory is asked for before it is needed; twice as many for what says where.
 const AHEAD: usize = 2;

@@ -6,9 +6,9 @@ use super::field::{BRICK, EDGE, Field, at_level};
 use super::order::GROUP;
 use super::{BRICK_BYTES, Cells};
 use crate::register::Limit;
+use accel::parallel::prelude::*;
 use accel::{BuildError, Objects};
 use lanes::EMPTY_SLOT;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// An object in a cell: its group, and its slices on the finest level.

@@ -10,12 +10,12 @@ mod way;
 use crate::register::{Limit, register};
 use crate::{Resolution, Settings};
 use accel::grid::Grid;
+use accel::parallel::prelude::*;
 use accel::{Accel, BuildError, Builder, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes};
 use field::{BRICK, Field};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 use order::{GROUP, Order};
 use primitives::WithObjects;
-use rayon::prelude::*;
 
 const ID: &str = "ssm";
 

@@ -1,8 +1,8 @@
 //! The order in which objects are packed.
 
+use accel::parallel::prelude::*;
 use accel::{Aabb, Objects};
 use lanes::{EMPTY_SLOT, ROW};
-use rayon::prelude::*;
 
 /// Objects tested together: what one reference of a cell stands for.
 pub(super) const GROUP: usize = ROW;

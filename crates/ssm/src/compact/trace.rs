@@ -4,9 +4,9 @@ use super::field::Visit;
 use super::order::GROUP;
 use super::way::Way;
 use super::{Built, Cells, sort};
+use accel::parallel::prelude::*;
 use accel::{Count, Counters, Nearest, NoCount, Ray, RaySet};
 use lanes::{BLOCK, Blocks, PackedObjects, Simd, Task};
-use rayon::prelude::*;
 
 /// Rays for which the instruction set is chosen once.
 const BATCH: usize = 512;

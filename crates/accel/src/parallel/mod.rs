@@ -1,0 +1,12 @@
+//! Work shared by threads: [rayon](https://docs.rs/rayon) where the feature `parallel` is on, and a serial
+//! stand-in of the same names where it is off, so that code is written once.
+
+#[cfg(feature = "parallel")]
+mod rayon;
+#[cfg(any(not(feature = "parallel"), test))]
+pub mod serial;
+
+#[cfg(feature = "parallel")]
+pub use self::rayon::{join, prelude, repeat_n, threads};
+#[cfg(not(feature = "parallel"))]
+pub use self::serial::{join, prelude, repeat_n, threads};
