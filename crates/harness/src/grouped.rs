@@ -23,7 +23,7 @@ impl Measure {
     /// The cell's figure: median ns per ray, median ns of a build, or bytes. None for cells
     /// that failed, and for zero bytes, which have no ratio.
     pub fn of(self, cell: &Cell) -> Option<f64> {
-        let bytes = cell.bytes.as_ref().filter(|_| cell.error.is_none());
+        let bytes = cell.bytes.as_ref().filter(|_| cell.outcome.is_measured());
         let figure = match self {
             Self::Trace => cell.ns(),
             Self::Build => cell.build(),

@@ -3,10 +3,23 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Does `work`; a panic becomes an error with its message.
-pub fn guard<T>(what: &str, work: impl FnOnce() -> T) -> Result<T, String> {
+/// What panicked, and with which words.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what} panicked: {message}")]
+pub struct Panicked {
+    /// What was being done.
+    pub what: &'static str,
+    /// The panic's message.
+    pub message: String,
+}
+
+/// Does `work`.
+///
+/// # Errors
+/// If it panics.
+pub fn guard<T>(what: &'static str, work: impl FnOnce() -> T) -> Result<T, Panicked> {
     catch_unwind(AssertUnwindSafe(work))
-        .map_err(|panic| format!("{what} panicked: {}", message(panic.as_ref())))
+        .map_err(|panic| Panicked { what, message: message(panic.as_ref()).to_owned() })
 }
 
 fn message(panic: &(dyn Any + Send)) -> &str {

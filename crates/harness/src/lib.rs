@@ -17,6 +17,7 @@ pub mod guard;
 pub mod machine;
 pub mod measure;
 pub mod output;
+pub mod progress;
 pub mod recommend;
 pub mod record;
 pub mod registry;

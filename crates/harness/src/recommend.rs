@@ -1,9 +1,10 @@
 //! Which structure to use: measured candidates ranked under a user's constraints.
 
 use crate::auto::Wrong;
-use crate::record::{Cell, Record};
+use crate::record::{Cell, Intersector, Outcome, Record};
 use crate::stats::{geometric_mean, median};
 use crate::units;
+use primitives::KernelId;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -41,8 +42,17 @@ impl ErrorRate {
     }
 }
 
-/// Rates by kernel of the suite, or by structure that has a test of its own, and ray set.
-pub type ErrorRates = BTreeMap<(String, String), ErrorRate>;
+/// Whose answers a rate is of.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Answerer {
+    /// Every built-in structure with this kernel.
+    Kernel(KernelId),
+    /// An external structure, with its settings.
+    Structure(String),
+}
+
+/// Rates by who answers and ray set.
+pub type ErrorRates = BTreeMap<(Answerer, String), ErrorRate>;
 
 /// A structure with its figures on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -80,9 +90,11 @@ pub struct Recommendation {
 pub fn rank(record: &Record, errors: &ErrorRates, wish: &Wish) -> Recommendation {
     let mut all = Recommendation::default();
     let sets = record.ray_sets();
+    let scene = record.cells.first().map_or("", |cell| &cell.scene);
     for structure in record.structure_ids() {
         let cells: Vec<&Cell> = record.cells.iter().filter(|c| c.structure == structure).collect();
-        match candidate(structure, &cells, &sets, errors, wish) {
+        let outcome = |set: &str| record.outcome(scene, set, structure);
+        match candidate(structure, &cells, &sets, outcome, errors, wish) {
             Ok(candidate) if candidate.misfits.is_empty() => all.fitting.push(candidate),
             Ok(candidate) => all.others.push(candidate),
             Err(reason) => all.unfit.push((structure.to_owned(), reason)),
@@ -97,14 +109,14 @@ fn candidate(
     structure: &str,
     cells: &[&Cell],
     sets: &[&str],
+    outcome: impl Fn(&str) -> Outcome,
     errors: &ErrorRates,
     wish: &Wish,
 ) -> Result<Candidate, String> {
-    if let Some(error) = cells.iter().find_map(|cell| cell.error.clone()) {
-        return Err(error);
-    }
-    if let Some(set) = sets.iter().find(|set| !cells.iter().any(|cell| cell.rays == **set)) {
-        return Err(format!("does not serve {set} rays"));
+    for set in sets {
+        if let Some(reason) = outcome(set).reason() {
+            return Err(reason.to_owned());
+        }
     }
     let figures: Option<Vec<(f64, f64)>> = cells.iter().map(|cell| Some((cell.ns()?, build(cell)))).collect();
     let figures = figures.ok_or("has no sample")?;
@@ -157,10 +169,14 @@ fn build(cell: &Cell) -> f64 {
 /// Wrong answers of a cell: those of its kernel or structure or, where these were not examined, what the check of the cell
 /// decided exactly or, for rays that only ask whether there is a hit, found to differ from brute force.
 fn error_rate(cell: &Cell, errors: &ErrorRates) -> Option<ErrorRate> {
-    let foreign = cell.kernel == "own";
-    let examined = if foreign { &cell.structure } else { &cell.kernel };
-    let examined = errors.get(&(examined.clone(), cell.rays.clone())).copied();
-    if examined.is_some() || !foreign {
+    let answerer = match cell.kernel {
+        Intersector::BuiltIn(kernel) => Answerer::Kernel(kernel),
+        Intersector::External => Answerer::Structure(cell.structure.clone()),
+        Intersector::Unknown(_) => return None,
+    };
+    let external = matches!(answerer, Answerer::Structure(_));
+    let examined = errors.get(&(answerer, cell.rays.clone())).copied();
+    if examined.is_some() || !external {
         return examined;
     }
     let check = cell.check.as_ref()?;
@@ -232,11 +248,11 @@ mod tests {
     fn errors_count_by_kernel_or_by_structure() {
         let mut record = record();
         for cell in record.cells.iter_mut().filter(|cell| cell.structure == "c") {
-            cell.kernel = "own".into();
+            cell.kernel = Intersector::External;
             cell.check.as_mut().unwrap().errors =
                 Some(Errors { missed: 2, rays_exact: 1000, ..Errors::default() });
         }
-        let key = |rays: &str| ("moller-trumbore".to_owned(), rays.to_owned());
+        let key = |rays: &str| (Answerer::Kernel(KernelId::MollerTrumbore), rays.to_owned());
         let rate =
             |missed| ErrorRate::seen(&Wrong { rays: 100_000, of: 100_000, missed, ..Wrong::default() });
         let errors: ErrorRates = [(key("parallel"), rate(0)), (key("random"), rate(10))].into();
@@ -246,7 +262,10 @@ mod tests {
         assert_eq!(all.fitting[0].error.unwrap().share, 1e-4);
         assert_eq!(all.others[0].error.unwrap().share, 2e-3);
         let mut examined = errors.clone();
-        examined.extend(["parallel", "random"].map(|rays| (("c".to_owned(), rays.to_owned()), rate(1))));
+        examined.extend(
+            ["parallel", "random"]
+                .map(|rays| ((Answerer::Structure("c".to_owned()), rays.to_owned()), rate(1))),
+        );
         let all = rank(&record, &examined, &wish);
         assert_eq!(
             names(&all.fitting),
@@ -267,7 +286,7 @@ mod tests {
     #[test]
     fn structures_without_figures_are_named_with_the_reason() {
         let mut record = record();
-        record.cells[0].error = Some("it fell over".into());
+        record.cells[0].outcome = Outcome::Failed("it fell over".into());
         record.cells.retain(|cell| cell.structure != "b" || cell.rays != "random");
         let all = rank(&record, &BTreeMap::new(), &Wish::default());
         assert_eq!(names(&all.fitting), ["c"]);

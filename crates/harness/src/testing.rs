@@ -3,6 +3,7 @@
 use crate::machine::Machine;
 use crate::record::*;
 use accel::{Geometry, Mesh, Projection, Raster, Ray, RaySet, Scene, Vec3, View};
+use primitives::KernelId;
 
 /// Numbers in [-1, 1) that are the same in every run.
 pub fn random(seed: u32) -> impl FnMut() -> f32 {
@@ -70,7 +71,7 @@ pub fn cell(scene: &str, rays: &str, structure: &str, ns: f64) -> Cell {
         rays: rays.into(),
         query: Query::Closest,
         structure: structure.into(),
-        kernel: "moller-trumbore".into(),
+        kernel: Intersector::BuiltIn(KernelId::MollerTrumbore),
         kernel_reason: String::new(),
         threads: 1,
         ray_count: 1000,
@@ -89,7 +90,7 @@ pub fn cell(scene: &str, rays: &str, structure: &str, ns: f64) -> Cell {
         plan: String::new(),
         counters: None,
         check: Some(Check { rays_checked: 1000, differences: 0, errors: None }),
-        error: None,
+        outcome: Outcome::Measured,
     };
     cell.summarise();
     cell
@@ -119,7 +120,7 @@ pub fn record() -> Record {
         }
     }
     // c fails once: comparisons with it must leave that cell out for all.
-    cells[5].error = Some("it fell over".into());
+    cells[5].outcome = Outcome::Failed("it fell over".into());
     Record {
         format: FORMAT,
         started_unix: 1_700_000_000,

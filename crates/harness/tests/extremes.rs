@@ -67,7 +67,7 @@ fn check(id: &str, side: u32) -> usize {
                 }
             }
         }
-        for entry in registry::entries().iter().filter(|e| e.traits.own_kernel && e.id != "brute") {
+        for entry in registry::entries().iter().filter(|e| e.traits.built_in && e.id != "brute") {
             let choice = registry::parse(&format!("{}:kernel={kernel}", entry.id)).unwrap();
             let general = choice.builder.build(&scene, &Need::GENERAL).unwrap();
             for ((set, rays), reference) in sets.iter().zip(&references) {

@@ -226,7 +226,7 @@ fn choice(planted: Planted) -> Choice {
         source: "",
         version: String::new,
         settings: &[],
-        traits: Traits::OWN,
+        traits: Traits::BUILT_IN,
         variants: &[],
         make: |_| unreachable!("made by the test"),
     };
@@ -242,13 +242,13 @@ fn choice(planted: Planted) -> Choice {
 fn differences(planted: Planted) -> u64 {
     let plan = differences::Sweep {
         scenes: vec!["bumps-2k".into()],
-        rays: RaysId::ALL.into_iter().filter(|id| !id.is_raster()).collect(),
+        rays: RaysId::ALL.into_iter().filter(|id| !id.is_image()).collect(),
         size: 24,
         seed: 1,
         rays_each: 0,
         tests: u64::MAX,
     };
-    let tally = differences::run(&plan, &[choice(planted)], |_| ()).unwrap();
+    let tally = differences::run(&plan, &[choice(planted)], ()).unwrap();
     let row = &tally.structures[0];
     assert!(row.rays > 1000, "{row:?}");
     assert_eq!(tally.is_sound(), row.differences == 0, "{:?}", tally.findings);
@@ -263,14 +263,14 @@ fn missed(planted: Planted) -> u64 {
 
 fn missed_of(planted: Planted, scene: &str, rays: Vec<RaysId>, size: u32) -> u64 {
     let plan = oracle::OraclePlan { scenes: vec![scene.into()], rays, size, seed: 1, least: 0 };
-    let tally = oracle::run(&plan, &[choice(planted)], |_| ()).unwrap();
+    let tally = oracle::run(&plan, &[choice(planted)], ()).unwrap();
     assert!(tally.rays > 5000, "{tally:?}");
     tally.structures[0].missed
 }
 
 /// Rays that get out of closed meshes, by the leak check.
 fn leaked(planted: Planted, rays: u64) -> u64 {
-    let tally = leaks::run(rays, 1, &[choice(planted)], |_| ()).unwrap();
+    let tally = leaks::run(rays, 1, &[choice(planted)], ()).unwrap();
     let sum: u64 = tally.sums().iter().flat_map(|(_, _, leaks)| leaks).sum();
     assert_eq!(tally.is_tight(), sum == 0);
     sum

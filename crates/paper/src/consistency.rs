@@ -66,7 +66,7 @@ impl<'s> WithObjects<'s> for Maps {
 ///
 /// # Errors
 /// Where the maps of the largest image would not fit in memory.
-pub fn evaluate(scene: &Scene, progress: &dyn Fn()) -> Result<(Consistency, RgbImage), BuildError> {
+pub fn evaluate(scene: &Scene) -> Result<(Consistency, RgbImage), BuildError> {
     let mut out = Consistency {
         scene: scene.id.clone(),
         objects: scene.geometry.len(),
@@ -104,7 +104,6 @@ pub fn evaluate(scene: &Scene, progress: &dyn Fn()) -> Result<(Consistency, RgbI
             unseen: unseen.len(),
         };
         out.resolutions.push(resolution);
-        progress();
     }
     Ok((out, picture))
 }

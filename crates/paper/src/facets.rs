@@ -42,7 +42,7 @@ const LONGEST: [Option<f64>; 5] = [None, Some(200.0), Some(50.0), Some(25.0), So
 ///
 /// # Errors
 /// As [`Builder::build`].
-pub fn evaluate(scene: &Scene, rounds: usize, progress: &dyn Fn()) -> Result<Vec<Facets>, BuildError> {
+pub fn evaluate(scene: &Scene, rounds: usize) -> Result<Vec<Facets>, BuildError> {
     let Geometry::Triangles(mesh) = &scene.geometry else { return Ok(Vec::new()) };
     let mut out = Vec::new();
     for longest in LONGEST {
@@ -53,7 +53,6 @@ pub fn evaluate(scene: &Scene, rounds: usize, progress: &dyn Fn()) -> Result<Vec
         };
         let scene = Scene { geometry: Geometry::Triangles(facets), ..scene.clone() };
         out.push(one(&scene, longest, rounds)?);
-        progress();
     }
     Ok(out)
 }
@@ -113,7 +112,7 @@ mod tests {
         // The hall alone: its 12 triangles are the last.
         let hall = Mesh { triangles: mesh.triangles[mesh.triangles.len() - 12..].to_vec(), ..mesh.clone() };
         let scene = Scene { geometry: Geometry::Triangles(hall), ..scene };
-        let facets = evaluate(&scene, 1, &|| ()).unwrap();
+        let facets = evaluate(&scene, 1).unwrap();
         let share = |f: &Facets| f.primary_candidates / f.objects as f64;
         assert!(facets.len() == 5 && share(&facets[4]) < 0.2 * share(&facets[0]));
         assert!(

@@ -18,10 +18,12 @@ pub mod printed;
 pub mod secondary;
 pub mod slips;
 pub mod speed;
+mod stage;
 mod table;
 mod timing;
 
 pub use error::PaperError;
+pub use stage::Stage;
 pub use table::Table;
 
 use accel::Scene;
@@ -87,24 +89,23 @@ const REAL: [&str; 3] = ["bunny", "sponza", "teapot"];
 pub fn run(
     effort: &Effort,
     scene: Option<&str>,
-    tell: &dyn Fn(&str),
+    mut tell: impl FnMut(Stage),
 ) -> Result<(Paper, Option<RgbImage>), PaperError> {
-    let step = || ();
-    tell("Table 1 and the cost model");
+    tell(Stage::CostModel);
     let (one, cost_model) = operations::evaluate(effort.rounds);
-    tell("Tables 6 and 7: candidates");
+    tell(Stage::Candidates);
     let [six, seven] = candidates::tables(effort.seeds);
-    tell("Tables 2 to 5: speed");
-    let [two, three, four, five] = speed::tables(effort.rounds, &step);
-    tell("secondary rays");
-    let secondary = secondary::table(effort.secondary_rays, effort.rounds, &step);
-    tell("memory");
-    let memory = memory::evaluate(effort.most_n, effort.most_p, &step);
-    tell("large objects split");
-    let split = facets::evaluate(&load(&"stadium".parse()?)?, effort.rounds.min(5), &step)?;
-    tell("image consistency");
+    tell(Stage::Speed);
+    let [two, three, four, five] = speed::tables(effort.rounds);
+    tell(Stage::Secondary);
+    let secondary = secondary::table(effort.secondary_rays, effort.rounds);
+    tell(Stage::Memory);
+    let memory = memory::evaluate(effort.most_n, effort.most_p);
+    tell(Stage::Split);
+    let split = facets::evaluate(&load(&"stadium".parse()?)?, effort.rounds.min(5))?;
+    tell(Stage::Consistency);
     let consistency = match real(scene)? {
-        Some(scene) => Some(consistency::evaluate(&scene, &step)?),
+        Some(scene) => Some(consistency::evaluate(&scene)?),
         None => None,
     };
     let (consistency, picture) = consistency.unzip();

@@ -179,19 +179,13 @@ fn build(n: u32, p: u32, r: f64, references: f64) -> Option<(f64, f64, f64)> {
     Some((q, bytes(&list)?, bytes(&dense)?))
 }
 
-/// Cases up to N = `most_n` and p = `most_p`. `progress` is called after each.
-pub fn evaluate(most_n: u32, most_p: u32, progress: &dyn Fn()) -> Memory {
+/// Cases up to N = `most_n` and p = `most_p`.
+pub fn evaluate(most_n: u32, most_p: u32) -> Memory {
     let mut memory = Memory::default();
     for case in CASES {
         for p in OBJECTS.into_iter().filter(|p| *p <= most_p) {
-            let points: Vec<Point> = RESOLUTIONS
-                .into_iter()
-                .filter(|n| *n <= most_n)
-                .filter_map(|n| {
-                    progress();
-                    point(case, n, p)
-                })
-                .collect();
+            let points: Vec<Point> =
+                RESOLUTIONS.into_iter().filter(|n| *n <= most_n).filter_map(|n| point(case, n, p)).collect();
             let q = match case {
                 "large" => f64::from(p),
                 "one a cell" => 1.0,
@@ -221,7 +215,7 @@ mod tests {
     /// M_BMSSM as built is 3·N·p bits up to word padding; the special cases are those of the formula.
     #[test]
     fn maps_as_built_are_the_formula_up_to_padding() {
-        let memory = evaluate(32, 10_000, &|| ());
+        let memory = evaluate(32, 10_000);
         assert!(memory.points.iter().filter(|p| p.built).count() >= 12);
         for point in memory.points.iter().filter(|p| p.built) {
             let padding = 3.0 * f64::from(point.n) * 8.0;

@@ -118,7 +118,7 @@ impl Case {
 }
 
 /// Time of SSM over time of BMSSM for random rays in the cube, without detail tests.
-pub fn table(rays: usize, rounds: usize, progress: &dyn Fn()) -> Table {
+pub fn table(rays: usize, rounds: usize) -> Table {
     let cells: Vec<Vec<[f64; 7]>> = OBJECTS
         .iter()
         .map(|p| {
@@ -135,7 +135,6 @@ pub fn table(rays: usize, rounds: usize, progress: &dyn Fn()) -> Table {
                         &mut |_| case.wide(&mut c),
                     ],
                 );
-                progress();
                 let cells = case.maps.grid.cells() as f64;
                 let q = case.ids.len() as f64 / cells;
                 let per_ray = |i: usize| times[i] / rays as f64;

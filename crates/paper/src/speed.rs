@@ -148,21 +148,12 @@ impl Case {
     }
 }
 
-/// Two tables of one projection: against min-max, against the sphere. `progress` is called after each cell.
-fn pair(
-    projection: Projection,
-    prints: [(&str, &Cells); 2],
-    rounds: usize,
-    progress: &dyn Fn(),
-) -> [Table; 2] {
+/// Two tables of one projection: against min-max, against the sphere.
+fn pair(projection: Projection, prints: [(&str, &Cells); 2], rounds: usize) -> [Table; 2] {
     let times: Vec<Vec<Times>> = OBJECTS
         .iter()
         .map(|p| {
-            let cell = |s: &u32| {
-                let times = Case::new(projection, *p, *s).times(rounds);
-                progress();
-                times
-            };
+            let cell = |s: &u32| Case::new(projection, *p, *s).times(rounds);
             SIDES.iter().map(cell).collect()
         })
         .collect();
@@ -192,7 +183,7 @@ fn pair(
 }
 
 /// Tables 2 to 5: medians of `rounds` interleaved rounds, each over the rays of another row of the image.
-pub fn tables(rounds: usize, progress: &dyn Fn()) -> [Table; 4] {
+pub fn tables(rounds: usize) -> [Table; 4] {
     let parallel = [
         ("ν of BMSSM against the min-max test, parallel", &TABLE_2),
         ("ν of BMSSM against the sphere (circle) test, parallel", &TABLE_3),
@@ -201,8 +192,8 @@ pub fn tables(rounds: usize, progress: &dyn Fn()) -> [Table; 4] {
         ("ν of BMSSM against the min-max test, perspective", &TABLE_4),
         ("ν of BMSSM against the sphere test, perspective", &TABLE_5),
     ];
-    let [two, three] = pair(Projection::Parallel, parallel, rounds, progress);
-    let [four, five] = pair(Projection::Perspective, perspective, rounds, progress);
+    let [two, three] = pair(Projection::Parallel, parallel, rounds);
+    let [four, five] = pair(Projection::Perspective, perspective, rounds);
     let lost = "The print stops within p = 1600; the rows below are ours alone.";
     [two, three, four.remark(lost), five.remark(lost)]
 }

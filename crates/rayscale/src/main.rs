@@ -7,6 +7,7 @@ mod console;
 mod error;
 mod interrupt;
 mod options;
+mod progress;
 mod verb;
 mod verbs;
 

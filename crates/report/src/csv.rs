@@ -54,7 +54,7 @@ pub fn write_csv(record: &Record, out: impl Write) -> io::Result<()> {
             cell.rays.clone(),
             if cell.query == Query::Closest { "closest" } else { "occluded" }.to_owned(),
             cell.structure.clone(),
-            cell.kernel.clone(),
+            cell.kernel.to_string(),
             cell.threads.to_string(),
             cell.ray_count.to_string(),
             cell.hits.to_string(),
@@ -77,7 +77,7 @@ pub fn write_csv(record: &Record, out: impl Write) -> io::Result<()> {
             structure.map(|s| s.version.clone()).unwrap_or_default(),
             structure.map(|s| s.settings.clone()).unwrap_or_default(),
             cell.plan.clone(),
-            cell.error.clone().unwrap_or_default(),
+            cell.outcome.reason().unwrap_or_default().to_owned(),
         ])?;
     }
     csv.flush()

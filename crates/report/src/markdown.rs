@@ -7,9 +7,6 @@ use harness::record::{Cell, Record};
 use harness::units;
 use std::fmt::Write;
 
-/// Ray sets whose rays are an image's.
-const RASTERS: [&str; 2] = ["parallel", "perspective"];
-
 /// The whole report.
 pub fn markdown(record: &Record) -> String {
     let mut out = String::from("# Acceleration structures compared\n\n");
@@ -88,7 +85,7 @@ fn ranking(out: &mut String, record: &Record) {
 
 /// Geometric means of ratios for rasters or for lists, with a line that says of what.
 pub fn ranked(record: &Record, raster: bool) -> Option<(String, Table)> {
-    let cells = || record.cells.iter().filter(|cell| RASTERS.contains(&cell.rays.as_str()) == raster);
+    let cells = || record.cells.iter().filter(|cell| cell.is_image() == raster);
     let present = |id: &&str| cells().any(|cell| cell.structure == **id && cell.ns().is_some());
     let to = ["embree", "obvhs-cwbvh", "ssm", "minmax"].into_iter().find(present);
     let to = to.or_else(|| cells().find(|cell| cell.ns().is_some()).map(|cell| cell.structure.as_str()))?;
@@ -121,11 +118,13 @@ fn section(out: &mut String, title: &str, says: &str, table: Table) {
 fn once(cells: &[Cell]) -> Vec<Cell> {
     let mut out: Vec<Cell> = Vec::new();
     for cell in cells {
-        let rays = if RASTERS.contains(&cell.rays.as_str()) { cell.rays.as_str() } else { "lists" };
+        let rays = if cell.is_image() { cell.rays.as_str() } else { "lists" };
         let same = |c: &&mut Cell| (c.scene == cell.scene) && c.rays == rays && c.structure == cell.structure;
         match out.iter_mut().find(same) {
             // A set that failed says nothing of the build that served the others.
-            Some(known) if known.error.is_some() => *known = Cell { rays: rays.to_owned(), ..cell.clone() },
+            Some(known) if !known.outcome.is_measured() => {
+                *known = Cell { rays: rays.to_owned(), ..cell.clone() }
+            }
             Some(_) => {}
             None => out.push(Cell { rays: rays.to_owned(), ..cell.clone() }),
         }
@@ -176,7 +175,7 @@ fn checks(record: &Record) -> Table {
 }
 
 fn left_out(out: &mut String, record: &Record) {
-    let failed: Vec<&Cell> = record.cells.iter().filter(|cell| cell.error.is_some()).collect();
+    let failed: Vec<&Cell> = record.cells.iter().filter(|cell| !cell.outcome.is_measured()).collect();
     if failed.is_empty() && record.skipped.is_empty() {
         return;
     }
@@ -186,7 +185,7 @@ fn left_out(out: &mut String, record: &Record) {
     }
     let mut said: Vec<(&str, &str, String)> = Vec::new();
     for cell in failed {
-        let error = cell.error.clone().unwrap_or_default();
+        let error = cell.outcome.reason().unwrap_or_default().to_owned();
         if !said.contains(&(&cell.scene, &cell.structure, error.clone())) {
             let _ = writeln!(out, "- `{}` on {} {}: {error}", cell.structure, cell.scene, cell.rays);
             said.push((&cell.scene, &cell.structure, error));

@@ -4,6 +4,8 @@
 //! lightness. The shades were spread so that any two stay apart for people without one of the
 //! three cones too; the tests hold them to that. Shapes differ as well.
 
+use harness::record::id_of;
+
 /// The shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
@@ -55,7 +57,7 @@ const OTHER: Look = look("#bb6cac", "#f723c7", Shape::Diamond);
 
 /// The look of a structure, named by its id with or without settings.
 pub fn of(structure: &str) -> Look {
-    let id = structure.split(':').next().unwrap_or(structure);
+    let id = id_of(structure);
     LOOKS.iter().find(|(known, _)| *known == id).map_or(OTHER, |(_, look)| *look)
 }
 

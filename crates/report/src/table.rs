@@ -1,7 +1,7 @@
 //! Tables: scenes and ray sets down, structures across.
 
 use harness::grouped::Measure;
-use harness::record::{Cell, Key};
+use harness::record::{Cell, Key, Outcome};
 use harness::units;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -83,11 +83,10 @@ pub fn figures(cells: &[Cell], measure: Measure) -> Table {
 }
 
 fn entry(cell: &Cell, measure: Measure) -> String {
-    match (&cell.error, measure.of(cell)) {
-        (Some(error), _) if error.contains(" does not serve ") => "–".to_owned(),
-        (Some(_), _) => "failed".to_owned(),
-        (None, None) => "–".to_owned(),
-        (None, Some(value)) => match measure {
+    match (&cell.outcome, measure.of(cell)) {
+        (Outcome::Failed(_), _) => "failed".to_owned(),
+        (Outcome::Unsupported(_) | Outcome::Skipped(_), _) | (Outcome::Measured, None) => "–".to_owned(),
+        (Outcome::Measured, Some(value)) => match measure {
             Measure::Trace => units::time(value).replace(" ns", ""),
             Measure::Build => units::time(value),
             Measure::Structure | Measure::Bytes => units::bytes(value as u64),

@@ -5,7 +5,7 @@ use crate::check::{judge, oracle_of};
 use crate::record::Query;
 use crate::registry;
 use crate::units;
-use crate::workload::{Workload, pick, sample};
+use crate::workload::{Batch, pick, sample};
 use accel::{Accel, RaySet, Scene};
 use oracle::Oracle;
 use primitives::KernelId;
@@ -92,32 +92,32 @@ pub struct Examiner<'s> {
 }
 
 impl<'s> Examiner<'s> {
-    /// Looks at no more than `most` rays of all workloads together, spread evenly.
-    pub fn new(scene: &'s Scene, workloads: &[Workload], most: usize) -> Self {
+    /// Looks at no more than `most` rays of all batches together, spread evenly.
+    pub fn new(scene: &'s Scene, batches: &[Batch], most: usize) -> Self {
         let exact = registry::quick(scene, KernelId::Exact);
-        let share = most / workloads.len().max(1);
-        let know = |workload: &Workload| {
-            let numbers = sample(workload.rays.len(), share);
-            let rays = pick(&workload.rays, &numbers);
-            let mut answers = Answers::new(workload.query, rays.len());
+        let share = most / batches.len().max(1);
+        let know = |batch: &Batch| {
+            let numbers = sample(batch.rays.len(), share);
+            let rays = pick(batch.rays, &numbers);
+            let mut answers = Answers::new(batch.query, rays.len());
             answers.trace(exact.as_ref(), &rays);
-            Known { rays, of: workload.rays.len() as u64, answers }
+            Known { rays, of: batch.rays.len() as u64, answers }
         };
-        Self { scene, known: workloads.iter().map(know).collect(), oracle: None }
+        Self { scene, known: batches.iter().map(know).collect(), oracle: None }
     }
 
-    /// A kernel's errors for each workload.
+    /// A kernel's errors for each batch.
     pub fn examine(&mut self, kernel: KernelId) -> Vec<Wrong> {
         let accel = registry::quick(self.scene, kernel);
         self.examine_structure(accel.as_ref())
     }
 
-    /// A structure's errors for each workload.
+    /// A structure's errors for each batch.
     pub fn examine_structure(&mut self, accel: &dyn Accel) -> Vec<Wrong> {
         (0..self.known.len()).map(|i| self.one(i, accel)).collect()
     }
 
-    /// A kernel's errors over all workloads.
+    /// A kernel's errors over all batches.
     pub fn examine_all(&mut self, kernel: KernelId) -> Wrong {
         let mut sum = Wrong::default();
         self.examine(kernel).iter().for_each(|wrong| sum.add(wrong));
@@ -180,9 +180,8 @@ mod tests {
         let tracer = registry::quick(&scene, KernelId::Exact);
         let spec = RaysSpec { id: RaysId::LeakVertex, rows: 40, cols: 40, seed: 1 };
         let rays = generate(&scene, &spec, tracer.as_ref()).unwrap();
-        let workload = |query| Workload { id: "aimed".into(), rays: rays.clone(), query };
-        let mut examiner =
-            Examiner::new(&scene, &[workload(Query::Closest), workload(Query::Occluded)], 1000);
+        let batch = |query| Batch { rays: &rays, query };
+        let mut examiner = Examiner::new(&scene, &[batch(Query::Closest), batch(Query::Occluded)], 1000);
         let rough = examiner.examine(KernelId::MollerTrumbore);
         assert!(rough[0].total() > 0 && rough[0].rays == 500 && rough[0].of == 1600, "{rough:?}");
         assert!(rough[1].missed > 0 && rough[1].missed <= rough[0].missed, "{rough:?}");

@@ -6,7 +6,7 @@ mod examine;
 pub use examine::{Examiner, Wrong};
 
 use crate::registry::{Choice, ChosenKernel};
-use crate::workload::Workload;
+use crate::workload::Batch;
 use accel::{Geometry, Scene};
 use primitives::KernelId;
 use std::borrow::Cow;
@@ -28,7 +28,7 @@ pub struct Decision {
 }
 
 /// The cheapest kernel that gives at most `max_error` wrong answers in a million of these rays.
-pub fn decide(scene: &Scene, workloads: &[Workload], max_error: f64) -> Decision {
+pub fn decide(scene: &Scene, batches: &[Batch], max_error: f64) -> Decision {
     let decision = |kernel: KernelId, reason: String| Decision { kernel, reason };
     if !matches!(scene.geometry, Geometry::Triangles(_)) {
         return decision(MEASURED[0], "the scene has no triangles".to_owned());
@@ -39,7 +39,7 @@ pub fn decide(scene: &Scene, workloads: &[Workload], max_error: f64) -> Decision
     if max_error <= 0.0 {
         return exact("");
     }
-    let mut examiner = Examiner::new(scene, workloads, MOST_RAYS);
+    let mut examiner = Examiner::new(scene, batches, MOST_RAYS);
     let mut tried = String::new();
     for kernel in MEASURED {
         let wrong = examiner.examine_all(kernel);
@@ -55,7 +55,7 @@ pub fn decide(scene: &Scene, workloads: &[Workload], max_error: f64) -> Decision
 
 /// The choices with every kernel decided that was left to the suite, for a scene and the rays to be traced.
 /// Choices that are decided stay so.
-pub fn resolve<'c>(choices: &'c [Choice], scene: &Scene, workloads: &[Workload]) -> Cow<'c, [Choice]> {
+pub fn resolve<'c>(choices: &'c [Choice], scene: &Scene, batches: &[Batch]) -> Cow<'c, [Choice]> {
     let mut known: Vec<(f64, Decision)> = Vec::new();
     let mut all = Cow::Borrowed(choices);
     for (i, choice) in choices.iter().enumerate() {
@@ -63,7 +63,7 @@ pub fn resolve<'c>(choices: &'c [Choice], scene: &Scene, workloads: &[Workload])
         let decision = match known.iter().find(|(limit, _)| *limit == max_error) {
             Some((_, decision)) => decision.clone(),
             None => {
-                let decision = decide(scene, workloads, max_error);
+                let decision = decide(scene, batches, max_error);
                 known.push((max_error, decision.clone()));
                 decision
             }
@@ -80,22 +80,20 @@ mod tests {
     use crate::{registry, testing};
     use accel::{Need, RaySet};
 
-    fn aimed() -> (Scene, Vec<Workload>) {
-        let (scene, rays) = testing::from_inside(3000);
-        let workload = |query| Workload { id: format!("{query:?}"), rays: rays.clone(), query };
-        let workloads = vec![workload(Query::Closest), workload(Query::Occluded)];
-        (scene, workloads)
+    fn both(rays: &RaySet) -> [Batch<'_>; 2] {
+        [Query::Closest, Query::Occluded].map(|query| Batch { rays, query })
     }
 
     #[test]
     fn the_limit_decides() {
-        let (scene, workloads) = aimed();
-        let at = |max_error| decide(&scene, &workloads, max_error);
+        let (scene, rays) = testing::from_inside(3000);
+        let batches = both(&rays);
+        let at = |max_error| decide(&scene, &batches, max_error);
         assert_eq!(at(1e6).kernel, KernelId::MollerTrumbore);
         assert_eq!(at(0.0).kernel, KernelId::Exact);
         assert!(at(0.0).reason.contains("proven"));
         // Every one of these rays was examined, and what is chosen keeps the limit on them.
-        let mut examiner = Examiner::new(&scene, &workloads, MOST_RAYS);
+        let mut examiner = Examiner::new(&scene, &batches, MOST_RAYS);
         let rates = MEASURED.map(|kernel| examiner.examine_all(kernel).per_million());
         for limit in [rates[0], rates[1], rates[2], 1.0, 0.5] {
             let chosen = at(limit.max(1e-9));
@@ -112,20 +110,21 @@ mod tests {
 
     #[test]
     fn choices_are_decided_once_and_others_stay() {
-        let (scene, workloads) = aimed();
+        let (scene, rays) = testing::from_inside(3000);
+        let batches = both(&rays);
         let choices = ["ssm:kernel=auto", "minmax:kernel=watertight", "obvhs-bvh2"]
             .map(|id| registry::parse(id).unwrap());
         assert!(choices[0].builder.build(&scene, &Need::GENERAL).is_err(), "it is not decided");
         assert!(choices[0].builder.settings().contains("kernel=auto"));
         let mut limited = choices.to_vec();
         limited[0].kernel = ChosenKernel::Auto { max_error: 0.0 };
-        let decided = resolve(&limited, &scene, &workloads);
+        let decided = resolve(&limited, &scene, &batches);
         assert_eq!([0, 1, 2].map(|i| decided[i].kernel()), ["exact", "watertight", "own"]);
         assert_eq!(decided[0].spec, choices[0].spec);
         assert!(decided[0].builder.settings().contains("kernel=exact"));
         assert!(decided[0].reason().contains("proven") && decided[1].reason().is_empty());
         assert!(matches!(resolve(&decided, &scene, &[]), Cow::Borrowed(_)));
-        let rays = RaySet::List(vec![workloads[0].rays.ray(0)]);
+        let rays = RaySet::List(vec![rays.ray(0)]);
         let mut hits = [None];
         decided[0].builder.build(&scene, &Need::GENERAL).unwrap().trace(&rays, &mut hits);
         assert!(hits[0].is_some());

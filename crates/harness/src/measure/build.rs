@@ -4,7 +4,7 @@ use super::Options;
 use super::watch::Watch;
 use crate::clock::Clock;
 use crate::record::Bytes;
-use crate::registry::{Choice, guarded_build};
+use crate::registry::{BuildFailure, Choice, guarded_build};
 use accel::{Accel, Group, Need, Scene};
 use heap;
 
@@ -19,12 +19,12 @@ pub struct Built<'s> {
 }
 
 /// Why there is no structure.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Absent {
     /// Its memory is in use elsewhere until the next pass.
     Dropped,
     /// It can't be built.
-    Failed(String),
+    Failed(BuildFailure),
 }
 
 impl Built<'_> {

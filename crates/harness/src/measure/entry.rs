@@ -1,23 +1,25 @@
 //! One ray set of a scene in one pass: the structures are warmed up and checked, then sampled.
 
 use super::build::{Absent, Built};
+use super::failure::Failure;
 use super::job::Job;
 use super::trace::{Runner, rounds};
 use crate::answers::Answers;
 use crate::check::{Reference, compare, judge, oracle_of};
 use crate::guard::guard;
-use crate::record::{Cell, Check, Query};
+use crate::record::{Cell, Check, Outcome, Query};
 use crate::registry::Choice;
 use crate::workload::{Workload, in_time, sample, thin};
 use accel::{Accel, Builder, Counters, Geometry, Need, RaySet, Scene};
 use baselines::Brute;
 use oracle::Oracle;
 use primitives::KernelId;
+use scenes::rays::RaysId;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What passes leave to later ones, by ray set and structure.
-pub type Entries<'w> = BTreeMap<(String, String), Entry<'w>>;
+pub type Entries<'w> = BTreeMap<(RaysId, String), Entry<'w>>;
 
 /// A structure on a ray set, between two passes.
 pub struct Entry<'w> {
@@ -27,7 +29,17 @@ pub struct Entry<'w> {
     fingerprint: Option<u64>,
     /// Samples of builds that an earlier run left.
     earlier_builds: Vec<u64>,
+    /// Why it is not sampled any more.
+    failure: Option<Failure>,
     cell: Cell,
+}
+
+impl Entry<'_> {
+    fn fail(&mut self, failure: impl Into<Failure>) {
+        let failure = failure.into();
+        self.cell.outcome = failure.clone().into();
+        self.failure = Some(failure);
+    }
 }
 
 /// Brute force and the exact oracle, built when first asked for.
@@ -76,7 +88,7 @@ pub fn ray_set<'w>(
         if job.watch.interrupted() {
             return None;
         }
-        let name = (workload.id.clone(), choice.spec.to_string());
+        let name = (workload.id, choice.spec.to_string());
         all.push(match entries.remove(&name) {
             Some(entry) => {
                 warm_up(choice, built, &entry);
@@ -88,7 +100,7 @@ pub fn ray_set<'w>(
     let mut runners = Vec::new();
     for ((entry, first), (_, built)) in all.iter_mut().zip(entrants) {
         match &built.accel {
-            Err(Absent::Failed(error)) => entry.cell.error = Some(error.clone()),
+            Err(Absent::Failed(failure)) => entry.fail(failure.clone()),
             Err(Absent::Dropped) => unreachable!("every pass builds what was dropped"),
             Ok(accel) => runners.push(Runner {
                 accel: accel.as_ref(),
@@ -96,35 +108,37 @@ pub fn ray_set<'w>(
                 query: workload.query,
                 first: first.take(),
                 trace_ns: entry.cell.trace_ns.clone(),
-                error: entry.cell.error.clone(),
+                failure: entry.failure.clone(),
             }),
         }
     }
     rounds(&mut runners, (job.options, pass), job.watch)?;
-    let done: Vec<_> = runners.into_iter().map(|r| (r.trace_ns, r.first, r.error)).collect();
+    let done: Vec<_> = runners.into_iter().map(|r| (r.trace_ns, r.first, r.failure)).collect();
     let mut done = done.into_iter();
     let mut cells = Vec::new();
     for ((mut entry, _), (choice, built)) in all.into_iter().zip(entrants) {
         if let Ok(accel) = &built.accel {
-            let (trace_ns, first, error) = done.next().expect("one runner for each structure built");
+            let (trace_ns, first, failure) = done.next().expect("one runner for each structure built");
             let cell = &mut entry.cell;
             cell.passes.push(trace_ns.len() - cell.trace_ns.len());
             cell.trace_ns = trace_ns;
-            cell.error = error;
             cell.build_ns = [&entry.earlier_builds[..], &built.build_ns].concat();
+            if let Some(failure) = failure {
+                entry.fail(failure);
+            }
             if let Some(first) = first.filter(|first| entry.fingerprint != Some(first.fingerprint())) {
                 answers_of_another_build(job, choice, &first, &mut entry, &mut checked, refs);
             }
             let cell = &mut entry.cell;
             cell.summarise();
-            if job.options.counters && cell.error.is_none() && cell.counters.is_none() {
+            if job.options.counters && cell.outcome.is_measured() && cell.counters.is_none() {
                 let count = || accel.count(&entry.rays, workload.query == Query::Occluded);
                 cell.counters =
                     guard("counting", count).ok().flatten().map(|c| per_ray(&c, entry.rays.len()));
             }
         }
         cells.push(entry.cell.clone());
-        entries.insert((workload.id.clone(), choice.spec.to_string()), entry);
+        entries.insert((workload.id, choice.spec.to_string()), entry);
     }
     Some(cells)
 }
@@ -140,30 +154,28 @@ fn enter<'w>(
     refs: &mut References,
 ) -> (Entry<'w>, Option<Answers>) {
     let rays = rays_for(job, workload, choice, built);
-    let mut cell = blank(job, workload, choice, built, &rays);
-    let known = job.known(workload, choice).filter(|known| known.ray_count == cell.ray_count);
-    let mut earlier_builds = Vec::new();
-    if let Some(known) = known {
-        cell.trace_ns.clone_from(&known.trace_ns);
-        cell.passes.clone_from(&known.passes);
-        earlier_builds.clone_from(&known.build_ns);
+    let cell = blank(job, workload, choice, built, &rays);
+    let mut entry = Entry { rays, fingerprint: None, earlier_builds: Vec::new(), failure: None, cell };
+    if let Some(known) = job.known(workload, choice).filter(|known| known.ray_count == entry.cell.ray_count) {
+        entry.cell.trace_ns.clone_from(&known.trace_ns);
+        entry.cell.passes.clone_from(&known.passes);
+        entry.earlier_builds.clone_from(&known.build_ns);
     }
-    let mut answers = None;
-    if let Ok(accel) = &built.accel {
-        let mut first = Answers::new(workload.query, rays.len());
-        match guard("tracing", || first.trace(accel.as_ref(), &rays)) {
-            Err(error) => cell.error = Some(error),
-            Ok(()) => {
-                cell.hits = first.hits() as u64;
-                cell.plan = accel.plan();
-                cell.check = Some(check(job, choice, &rays, &first, checked, refs));
-                cell.error = verdict(choice, cell.check.as_ref());
-                answers = Some(first);
-            }
-        }
+    let Ok(accel) = &built.accel else { return (entry, None) };
+    let mut answers = Answers::new(workload.query, entry.rays.len());
+    if let Err(panicked) = guard("tracing", || answers.trace(accel.as_ref(), &entry.rays)) {
+        entry.fail(panicked);
+        return (entry, None);
     }
-    let fingerprint = answers.as_ref().map(Answers::fingerprint);
-    (Entry { rays, fingerprint, earlier_builds, cell }, answers)
+    let check = check(job, choice, &entry.rays, &answers, checked, refs);
+    entry.cell.hits = answers.hits() as u64;
+    entry.cell.plan = accel.plan();
+    if let Some(failure) = verdict(choice, &check) {
+        entry.fail(failure);
+    }
+    entry.cell.check = Some(check);
+    entry.fingerprint = Some(answers.fingerprint());
+    (entry, Some(answers))
 }
 
 /// The rays that a structure has time for.
@@ -188,7 +200,7 @@ fn of_one_raster(choice: &Choice, rays: &RaySet) -> bool {
 
 /// Brings a structure into the caches again. An eighth of the rays meets most of it.
 fn warm_up(choice: &Choice, built: &Built, entry: &Entry) {
-    let (Ok(accel), None) = (&built.accel, &entry.cell.error) else { return };
+    let (Ok(accel), None) = (&built.accel, &entry.failure) else { return };
     let rays = match entry.rays.as_ref() {
         rays if of_one_raster(choice, rays) => Cow::Borrowed(rays),
         rays => Cow::Owned(thin(rays, rays.len().div_ceil(8))),
@@ -209,9 +221,8 @@ fn answers_of_another_build(
     refs: &mut References,
 ) {
     let again = check(job, choice, &entry.rays, answers, checked, refs);
-    if choice.entry.traits.own_kernel && entry.cell.error.is_none() {
-        let error = "another build of the structure gave other answers than the one that was checked";
-        entry.cell.error = verdict(choice, Some(&again)).or_else(|| Some(error.to_owned()));
+    if choice.entry.traits.built_in && entry.failure.is_none() {
+        entry.fail(verdict(choice, &again).unwrap_or(Failure::OtherBuild));
     }
     let worse = |check: &Check| check.differences < again.differences;
     if entry.cell.check.as_ref().is_none_or(worse) {
@@ -222,10 +233,10 @@ fn answers_of_another_build(
 fn blank(job: &Job, workload: &Workload, choice: &Choice, built: &Built, rays: &RaySet) -> Cell {
     Cell {
         scene: job.scene.id.clone(),
-        rays: workload.id.clone(),
+        rays: workload.id.to_string(),
         query: workload.query,
         structure: choice.spec.to_string(),
-        kernel: choice.kernel().to_owned(),
+        kernel: choice.intersector(),
         kernel_reason: choice.reason().to_owned(),
         threads: job.options.threads,
         ray_count: rays.len() as u64,
@@ -238,7 +249,7 @@ fn blank(job: &Job, workload: &Workload, choice: &Choice, built: &Built, rays: &
         plan: String::new(),
         counters: None,
         check: None,
-        error: None,
+        outcome: Outcome::Measured,
     }
 }
 
@@ -270,7 +281,7 @@ fn check(
         differences: different.len() as u64,
         errors: None,
     };
-    if let (false, Some(hits)) = (choice.entry.traits.own_kernel, answers.closest()) {
+    if let (false, Some(hits)) = (choice.entry.traits.built_in, answers.closest()) {
         let spread = sample(reference.numbers.len(), job.options.exact_rays);
         let most = job.options.exact_rays * 20;
         let mut numbers: Vec<usize> = spread.into_iter().map(|j| reference.numbers[j]).collect();
@@ -283,9 +294,9 @@ fn check(
 }
 
 /// One of the suite's own structures that differs from brute force is broken.
-fn verdict(choice: &Choice, check: Option<&Check>) -> Option<String> {
-    let check = check.filter(|check| choice.entry.traits.own_kernel && check.differences > 0)?;
-    Some(format!("{} of {} rays differ from brute force", check.differences, check.rays_checked))
+fn verdict(choice: &Choice, check: &Check) -> Option<Failure> {
+    let broken = choice.entry.traits.built_in && check.differences > 0;
+    broken.then_some(Failure::Differs { differences: check.differences, rays: check.rays_checked })
 }
 
 fn per_ray(counters: &Counters, rays: usize) -> BTreeMap<String, f64> {

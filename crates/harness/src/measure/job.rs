@@ -29,7 +29,7 @@ impl Job<'_> {
         served
             && self
                 .known(workload, choice)
-                .is_none_or(|cell| cell.error.is_none() && cell.passes.len() <= pass)
+                .is_none_or(|cell| cell.outcome.is_measured() && cell.passes.len() <= pass)
     }
 
     /// Whether any pass wants a cell.
@@ -40,6 +40,6 @@ impl Job<'_> {
     /// The cell as an earlier run left it.
     pub fn known(&self, workload: &Workload, choice: &Choice) -> Option<&Cell> {
         let name = choice.spec.to_string();
-        self.known.iter().find(|cell| cell.rays == workload.id && cell.structure == name)
+        self.known.iter().find(|cell| cell.rays == workload.id.name() && cell.structure == name)
     }
 }

@@ -37,7 +37,8 @@ fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>) -> MemoryRow {
 
 fn footprint(scene: &Scene, spec: &str) -> Result<Footprint, String> {
     let choice = registry::parse(spec).map_err(|error| error.to_string())?;
-    guarded_build(&choice, scene, &Need::GENERAL).map(|accel| accel.footprint())
+    let built = guarded_build(&choice, scene, &Need::GENERAL);
+    built.map(|accel| accel.footprint()).map_err(|failure| failure.to_string())
 }
 
 fn added(footprint: &Footprint) -> f64 {

@@ -8,6 +8,7 @@
 
 mod build;
 mod entry;
+mod failure;
 mod job;
 mod memory;
 mod options;
@@ -20,6 +21,7 @@ mod tests;
 mod trace;
 mod watch;
 
+pub use failure::Failure;
 pub use job::Job;
 pub use memory::{RESOLUTIONS, memory_rows};
 pub use options::Options;

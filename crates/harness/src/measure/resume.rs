@@ -125,7 +125,7 @@ mod tests {
         let choices = choices(&["ssm", "minmax"]);
         let record = resume(old, &session, &choices).unwrap();
         assert_eq!(record.structure_ids(), ["ssm", "minmax"]);
-        let record = run(&session, &choices, record, |_| (), |_| ()).unwrap();
+        let record = run(&session, &choices, record, (), |_| ()).unwrap();
         let ids: Vec<_> = record.skipped.iter().map(|s| s.id.as_str()).collect();
         assert!(ids.contains(&"elsewhere") && !ids.iter().any(|id| id.starts_with("unit-one")), "{ids:?}");
         assert!(record.cells.len() == 2 && record.run.unwrap().complete);
@@ -134,14 +134,14 @@ mod tests {
     #[test]
     fn what_is_there_is_not_measured_again_and_a_changed_scene_is_refused() {
         let (session, one, two) = (session(16), choices(&["ssm"]), choices(&["ssm", "minmax"]));
-        let first = run(&session, &one, begin(&session, &one), |_| (), |_| ()).unwrap();
+        let first = run(&session, &one, begin(&session, &one), (), |_| ()).unwrap();
         let again = resume(first.clone(), &session, &two).unwrap();
-        let second = run(&session, &two, again, |_| (), |_| ()).unwrap();
+        let second = run(&session, &two, again, (), |_| ()).unwrap();
         assert_eq!(second.cells[..1], first.cells[..]);
         assert_eq!(second.cells.len(), 2);
         let mut other = resume(first, &session, &one).unwrap();
         other.scenes[0].checksum = "00".into();
-        let refused = run(&session, &one, other, |_| (), |_| ()).unwrap_err().to_string();
+        let refused = run(&session, &one, other, (), |_| ()).unwrap_err().to_string();
         assert!(refused.contains("checksum of scene unit-one"), "{refused}");
     }
 
@@ -152,7 +152,7 @@ mod tests {
         session.watch = Watch::new(flag.clone(), None);
         let choices = choices(&["ssm", "minmax"]);
         let stop = |_: &Record| flag.store(true, std::sync::atomic::Ordering::Relaxed);
-        let record = run(&session, &choices, begin(&session, &choices), |_| (), stop).unwrap();
+        let record = run(&session, &choices, begin(&session, &choices), (), stop).unwrap();
         assert_eq!(record.cells.len(), 2);
         assert!(!record.run.unwrap().complete);
     }
@@ -167,13 +167,13 @@ mod tests {
             let again = record.cells[0].passes.len() == 2;
             flag.store(again, std::sync::atomic::Ordering::Relaxed);
         };
-        let begun = run(&session, &choices, begin(&session, &choices), |_| (), stop).unwrap();
+        let begun = run(&session, &choices, begin(&session, &choices), (), stop).unwrap();
         let passes = |record: &Record| record.cells.iter().map(|c| c.passes.len()).collect::<Vec<_>>();
         assert_eq!(passes(&begun), [2, 2, 1, 1]);
         assert!(!begun.run.unwrap().complete);
         flag.store(false, std::sync::atomic::Ordering::Relaxed);
         let whole = resume(begun.clone(), &session, &choices).unwrap();
-        let whole = run(&session, &choices, whole, |_| (), |_| ()).unwrap();
+        let whole = run(&session, &choices, whole, (), |_| ()).unwrap();
         assert_eq!(passes(&whole), [3; 4]);
         for (before, after) in begun.cells.iter().zip(&whole.cells) {
             assert_eq!(after.trace_ns[..before.trace_ns.len()], before.trace_ns);
@@ -186,7 +186,7 @@ mod tests {
         let session =
             Session { watch: Watch::new(Default::default(), Some(Default::default())), ..session(16) };
         let choices = choices(&["ssm"]);
-        let record = run(&session, &choices, begin(&session, &choices), |_| (), |_| ()).unwrap();
+        let record = run(&session, &choices, begin(&session, &choices), (), |_| ()).unwrap();
         assert!(record.cells.is_empty() && record.skipped.iter().any(|s| s.id == "unit-one"));
     }
 }

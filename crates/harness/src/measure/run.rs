@@ -5,6 +5,7 @@ use super::memory::{RESOLUTIONS, memory_rows};
 use super::resume::ResumeError;
 use super::scene::measure;
 use super::{Options, Session};
+use crate::progress::{Event, Listener};
 use crate::record::{Cell, Record, SceneEntry, Skipped};
 use crate::registry::Choice;
 use crate::workload::{self, Workload, Workloads};
@@ -22,10 +23,9 @@ pub enum SessionError {
     Resume(#[from] ResumeError),
 }
 
-/// Measures what `record` lacks, which is a new one ([`super::begin`]) or one to go on with ([`super::resume`]). `tell` gets
-/// a line for every scene, indented ones for its ray sets and, further in, for further passes over them; `keep` gets the record
-/// after every ray set of every pass. What can't be done is in
-/// the record with its reason.
+/// Measures what `record` lacks, which is a new one ([`super::begin`]) or one to go on with ([`super::resume`]).
+/// `listener` hears of scenes and ray sets; `keep` gets the record after every ray set of every pass. What can't be done is
+/// in the record with its reason.
 ///
 /// An interruption is no error: the record is what is done by then, and says that it is not complete.
 ///
@@ -35,7 +35,7 @@ pub fn run(
     session: &Session,
     choices: &[Choice],
     mut record: Record,
-    mut tell: impl FnMut(&str),
+    mut listener: impl Listener,
     mut keep: impl FnMut(&Record),
 ) -> Result<Record, SessionError> {
     for (i, id) in session.scenes.iter().enumerate() {
@@ -46,7 +46,7 @@ pub fn run(
         let loaded = match scenes::load_full(&spec) {
             Ok(loaded) => loaded,
             Err(error) if error.is_unavailable() => {
-                tell(&format!("{id}: skipped: {error}"));
+                listener.hear(&Event::SceneSkipped { id, reason: &error });
                 skip(&mut record, id.clone(), error.to_string());
                 keep(&record);
                 continue;
@@ -59,14 +59,13 @@ pub fn run(
             keep(&record);
             continue;
         }
-        tell(&format!(
-            "{} ({} of {}): {} {}",
-            scene.id,
-            i + 1,
-            session.scenes.len(),
-            crate::units::count(scene.geometry.len() as u64),
-            scene.geometry.kind()
-        ));
+        listener.hear(&Event::SceneBegun {
+            id: &scene.id,
+            place: i + 1,
+            of: session.scenes.len(),
+            objects: scene.geometry.len(),
+            kind: scene.geometry.kind(),
+        });
         let entry = SceneEntry {
             id: scene.id.clone(),
             objects: scene.geometry.len() as u64,
@@ -76,7 +75,7 @@ pub fn run(
         };
         enter(&mut record, entry)?;
         let options = share_of_time(session, choices, session.scenes.len() - i);
-        one_scene(session, choices, scene, &options, &mut record, &mut tell, &mut keep);
+        one_scene(session, choices, scene, &options, &mut record, &mut listener, &mut keep);
     }
     if let Some(run) = record.run.as_mut().filter(|_| !session.watch.interrupted()) {
         run.complete = true;
@@ -133,7 +132,7 @@ fn one_scene(
     scene: &Scene,
     options: &Options,
     record: &mut Record,
-    tell: &mut impl FnMut(&str),
+    listener: &mut impl Listener,
     keep: &mut impl FnMut(&Record),
 ) {
     let Workloads { made: workloads, left_out } =
@@ -142,17 +141,14 @@ fn one_scene(
     let here = |cell: &&Cell| cell.scene == scene.id && cell.threads == options.threads;
     let known: Vec<Cell> = record.cells.iter().filter(here).cloned().collect();
     let job = Job { scene, workloads: &workloads, choices, options, known: &known, watch: &session.watch };
-    let is_known = |w: &Workload| known.iter().any(|cell| cell.rays == w.id);
+    let is_known = |w: &Workload| known.iter().any(|cell| cell.rays == w.id.name());
     let mut left: Vec<&Workload> =
         workloads.iter().filter(|w| choices.iter().any(|c| job.lacks(w, c)) && !is_known(w)).collect();
     measure(&job, |workload, pass, cells| {
         cells.into_iter().for_each(|cell| put(record, cell));
         left.retain(|w| w.id != workload.id);
         keep(record);
-        tell(&match pass {
-            0 => format!("  {}", workload.id),
-            pass => format!("    {}, pass {} of {}", workload.id, pass + 1, options.passes()),
-        });
+        listener.hear(&Event::RaySetDone { rays: workload.id, pass: pass + 1, passes: options.passes() });
     });
     if session.watch.interrupted() {
         return;

@@ -5,7 +5,7 @@ use super::entry::{Entries, References, ray_set};
 use super::job::Job;
 use crate::record::Cell;
 use crate::registry::Choice;
-use crate::workload::Workload;
+use crate::workload::{Workload, batches};
 use accel::{Need, RaySet};
 
 /// Builds, checks and measures in passes; one cell for every structure and ray set, except lists of rays for
@@ -19,7 +19,7 @@ pub fn measure(job: &Job, keep: impl FnMut(&Workload, usize, Vec<Cell>)) {
 }
 
 fn all_passes(job: &Job, mut keep: impl FnMut(&Workload, usize, Vec<Cell>)) -> Option<()> {
-    let choices = crate::auto::resolve(job.choices, job.scene, job.workloads);
+    let choices = crate::auto::resolve(job.choices, job.scene, &batches(job.workloads));
     let job = &Job { choices: &choices, ..*job };
     let mut references = References::new(job.scene);
     let mut entries = Entries::new();

@@ -1,13 +1,14 @@
 //! Measuring structures of all kinds, faulty ones among them.
 
 use super::*;
-use crate::record::{Cell, Query};
+use crate::record::{Cell, Intersector, Outcome, Query};
 use crate::registry::{self, Choice, ChosenKernel, Entry, Traits};
 use crate::testing;
 use crate::workload::Workload;
 use accel::{Accel, BuildError, Builder, Footprint, Hit, Need, Ray, RaySet, Scene};
 use baselines::MinMax;
 use primitives::KernelId;
+use scenes::rays::RaysId;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
@@ -19,12 +20,12 @@ fn quick() -> Options {
 fn workloads(scene_rays: RaySet) -> Vec<Workload> {
     vec![
         Workload {
-            id: "parallel".into(),
+            id: RaysId::Parallel,
             rays: RaySet::Raster(testing::raster(64, 64)),
             query: Query::Closest,
         },
-        Workload { id: "random".into(), rays: scene_rays.clone(), query: Query::Closest },
-        Workload { id: "shadow".into(), rays: scene_rays, query: Query::Occluded },
+        Workload { id: RaysId::Random, rays: scene_rays.clone(), query: Query::Closest },
+        Workload { id: RaysId::Shadow, rays: scene_rays, query: Query::Occluded },
     ]
 }
 
@@ -36,12 +37,12 @@ fn cells(choices: &[Choice], options: &Options) -> Vec<Cell> {
     let job = Job { scene: &scene, workloads: &workloads, choices, options, known: &[], watch: &watch };
     let mut cells: Vec<Cell> = Vec::new();
     measure(&job, |workload, pass, more| {
-        told.push((pass, workload.id.clone()));
-        cells.retain(|cell| cell.rays != workload.id);
+        told.push((pass, workload.id));
+        cells.retain(|cell| cell.rays != workload.id.name());
         cells.extend(more);
     });
-    let ids = ["parallel", "random", "shadow"];
-    let expected = (0..options.passes()).flat_map(|pass| ids.map(|id| (pass, id.to_owned())));
+    let ids = [RaysId::Parallel, RaysId::Random, RaysId::Shadow];
+    let expected = (0..options.passes()).flat_map(|pass| ids.map(|id| (pass, id)));
     assert_eq!(told, expected.collect::<Vec<_>>());
     cells
 }
@@ -54,14 +55,14 @@ fn every_structure_has_a_cell_for_every_ray_set() {
     let cells = cells(&choices, &options);
     assert_eq!(cells.len(), 9);
     for cell in &cells {
-        assert_eq!(cell.error, None);
+        assert_eq!(cell.outcome, Outcome::Measured);
         assert_eq!((cell.trace_ns.len(), cell.build_ns.len()), (3, 2));
         assert_eq!(cell.passes, [2, 1]);
         let check = cell.check.as_ref().unwrap();
         assert_eq!((check.rays_checked, check.differences), (cell.ray_count, 0));
         assert!(cell.hits > 0 && cell.ns().unwrap() > 0.0);
     }
-    assert_eq!(cells[2].kernel, "watertight");
+    assert_eq!(cells[2].kernel, Intersector::BuiltIn(KernelId::Watertight));
     assert_eq!(cells[1].counters.as_ref().unwrap()["candidates"], 400.0);
 }
 
@@ -158,7 +159,7 @@ fn odd(fault: Fault) -> Cell {
         source: "",
         version: String::new,
         settings: &[],
-        traits: Traits::OWN,
+        traits: Traits::BUILT_IN,
         variants: &[],
         make: |_| unreachable!("made by the test"),
     };
@@ -172,13 +173,13 @@ fn odd(fault: Fault) -> Cell {
     let passes = if fault == Fault::OtherWhenBuiltAgain { 2 } else { 1 };
     let cells = cells(&choices, &Options { passes, ..quick() });
     let sound = cells.iter().filter(|c| c.structure == "minmax");
-    assert_eq!(sound.filter(|c| c.error.is_none() && c.trace_ns.len() == 3).count(), 3, "others go on");
+    assert_eq!(sound.filter(|c| c.outcome.is_measured() && c.trace_ns.len() == 3).count(), 3, "others go on");
     cells.into_iter().find(|c| c.structure == "odd" && c.rays == "parallel").unwrap()
 }
 
 #[test]
 fn what_goes_wrong_is_recorded() {
-    assert_eq!(odd(Fault::None).error, None);
+    assert_eq!(odd(Fault::None).outcome, Outcome::Measured);
     for (fault, says) in [
         (Fault::RefusesToBuild, "odd does not serve anything"),
         (Fault::PanicsInBuild, "the build panicked: no build today"),
@@ -189,7 +190,7 @@ fn what_goes_wrong_is_recorded() {
         (Fault::OtherWhenBuiltAgain, "1 of 4096 rays differ from brute force"),
     ] {
         let cell = odd(fault);
-        let error = cell.error.clone().unwrap_or_default();
+        let error = cell.outcome.reason().unwrap_or_default();
         assert!(error.contains(says), "`{error}` should say `{says}`");
         assert_eq!((cell.ns(), cell.build()), (None, None), "a cell that failed has no time: {says}");
     }

@@ -1,6 +1,7 @@
 //! Tracing: samples of all structures on one ray set, interleaved.
 
 use super::Options;
+use super::failure::Failure;
 use super::watch::Watch;
 use crate::answers::Answers;
 use crate::clock::Clock;
@@ -22,13 +23,13 @@ pub struct Runner<'a> {
     /// Samples in ns, those of earlier passes included.
     pub trace_ns: Vec<u64>,
     /// What went wrong; such a structure is not run again.
-    pub error: Option<String>,
+    pub failure: Option<Failure>,
 }
 
 /// Takes samples round by round, every round beginning with another structure, until as many are there as are due by
 /// the end of a pass, or the time of all runners is spent. None if interrupted.
 pub fn rounds(runners: &mut [Runner], (options, pass): (&Options, usize), watch: &Watch) -> Option<()> {
-    let running = || runners.iter().filter(|r| r.error.is_none());
+    let running = || runners.iter().filter(|r| r.failure.is_none());
     let time = options.time_due(options.cell_time, pass) * running().count() as u32;
     let mut spent: Duration = running().flat_map(|r| &r.trace_ns).copied().map(Duration::from_nanos).sum();
     let begun = running().map(|r| r.trace_ns.len()).min().unwrap_or(0);
@@ -48,7 +49,7 @@ pub fn rounds(runners: &mut [Runner], (options, pass): (&Options, usize), watch:
 }
 
 fn sample(runner: &mut Runner, clock: Clock) -> Duration {
-    if runner.error.is_some() {
+    if runner.failure.is_some() {
         return Duration::ZERO;
     }
     let new = || Answers::new(runner.query, runner.rays.len());
@@ -57,16 +58,16 @@ fn sample(runner: &mut Runner, clock: Clock) -> Duration {
     let start = clock.now();
     let traced = guard("tracing", || answers.trace(runner.accel, runner.rays));
     let took = clock.now() - start;
-    let agreed = traced.and_then(|()| {
+    let agreed = traced.map_err(Failure::from).and_then(|()| {
         let first = runner.first.get_or_insert_with(|| answers.clone());
         match answers.first_difference(first) {
             None => Ok(()),
-            Some(i) => Err(format!("ray {i} of a timed trace has another answer than in the checked trace")),
+            Some(ray) => Err(Failure::Changed { ray }),
         }
     });
     match agreed {
         Ok(()) => runner.trace_ns.push(took),
-        Err(error) => runner.error = Some(error),
+        Err(failure) => runner.failure = Some(failure),
     }
     Duration::from_nanos(took)
 }

@@ -1,18 +1,10 @@
 //! One measurement: a structure on a scene's ray set.
 
+use super::{Intersector, Outcome};
 use crate::stats;
+use scenes::rays::{Query, RaysId};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// What is asked of every ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Query {
-    /// The nearest hit.
-    Closest,
-    /// Whether there is any hit.
-    Occluded,
-}
 
 /// A structure on a scene's ray set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,8 +17,8 @@ pub struct Cell {
     pub query: Query,
     /// Structure, by its name in [`super::Record::structures`].
     pub structure: String,
-    /// Ray-triangle test, or `own` for a foreign structure's.
-    pub kernel: String,
+    /// Ray-triangle intersector.
+    pub kernel: Intersector,
     /// Why this ray-triangle test was chosen, where that was left to the suite.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kernel_reason: String,
@@ -56,8 +48,9 @@ pub struct Cell {
     pub counters: Option<BTreeMap<String, f64>>,
     /// Against brute force.
     pub check: Option<Check>,
-    /// What went wrong, if anything did.
-    pub error: Option<String>,
+    /// Whether there are figures, and why not.
+    #[serde(flatten)]
+    pub outcome: Outcome,
 }
 
 /// What makes a cell comparable: all but the structure.
@@ -71,7 +64,27 @@ pub struct Key {
     pub threads: usize,
 }
 
+/// The id in a structure's name: what stands before the settings.
+pub fn id_of(structure: &str) -> &str {
+    structure.split_once(':').map_or(structure, |(id, _)| id)
+}
+
 impl Cell {
+    /// The ray set, if this program knows it.
+    pub fn ray_set(&self) -> Option<RaysId> {
+        self.rays.parse().ok()
+    }
+
+    /// Whether its rays are the camera rays of an image.
+    pub fn is_image(&self) -> bool {
+        self.ray_set().is_some_and(RaysId::is_image)
+    }
+
+    /// The structure's id, without settings.
+    pub fn structure_id(&self) -> &str {
+        id_of(&self.structure)
+    }
+
     /// What the cell shares with those it can be compared with.
     pub fn key(&self) -> Key {
         Key { scene: self.scene.clone(), rays: self.rays.clone(), threads: self.threads }
@@ -79,13 +92,13 @@ impl Cell {
 
     /// Median ns per ray, unless the cell failed.
     pub fn ns(&self) -> Option<f64> {
-        self.ns_per_ray.as_ref().filter(|_| self.error.is_none()).map(|timing| timing.median)
+        self.ns_per_ray.as_ref().filter(|_| self.outcome.is_measured()).map(|timing| timing.median)
     }
 
     /// Median build time in ns, unless the cell failed.
     pub fn build(&self) -> Option<f64> {
         let samples: Vec<f64> = self.build_ns.iter().map(|ns| *ns as f64).collect();
-        stats::median(&samples).filter(|_| self.error.is_none())
+        stats::median(&samples).filter(|_| self.outcome.is_measured())
     }
 
     /// Samples in ns per ray.
@@ -194,7 +207,7 @@ mod tests {
         assert_eq!(cell.passes_per_ray(), [[10.0, 30.0, 20.0]]);
         cell.passes = vec![1, 2];
         assert_eq!(cell.passes_per_ray(), [vec![10.0], vec![30.0, 20.0]]);
-        cell.error = Some("lost hits".into());
+        cell.outcome = Outcome::Failed("lost hits".into());
         assert_eq!((cell.ns(), cell.build()), (None, None));
     }
 }

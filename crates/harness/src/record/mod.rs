@@ -2,14 +2,19 @@
 
 mod cell;
 mod file;
+mod intersector;
 mod memory;
+mod outcome;
 mod run;
 mod suite;
 
-pub use cell::{Bytes, Cell, Check, Errors, Key, Query, Timing};
+pub use cell::{Bytes, Cell, Check, Errors, Key, Timing, id_of};
 pub use file::{RecordError, read, write};
+pub use intersector::Intersector;
 pub use memory::{Layout, MemoryRow};
+pub use outcome::Outcome;
 pub use run::Run;
+pub use scenes::rays::{Query, RaysId};
 pub use suite::Suite;
 
 use crate::machine::Machine;
@@ -96,6 +101,19 @@ impl Record {
     /// The scene of that name.
     pub fn scene(&self, id: &str) -> Option<&SceneEntry> {
         self.scenes.iter().find(|scene| scene.id == id)
+    }
+
+    /// How a structure came out on a ray set of a scene, whether it has a cell there or not.
+    pub fn outcome(&self, scene: &str, rays: &str, structure: &str) -> Outcome {
+        let here = |cell: &&Cell| (&*cell.scene, &*cell.rays, &*cell.structure) == (scene, rays, structure);
+        if let Some(cell) = self.cells.iter().find(here) {
+            return cell.outcome.clone();
+        }
+        let set = Skipped::rays(scene, &rays, &"").id;
+        match self.skipped.iter().find(|skipped| [scene, &*set, structure].contains(&&*skipped.id)) {
+            Some(skipped) => Outcome::Skipped(skipped.reason.clone()),
+            None => Outcome::Unsupported(format!("does not serve {rays} rays")),
+        }
     }
 
     /// Names of the structures that have cells, in the record's order.

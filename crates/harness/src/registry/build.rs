@@ -1,15 +1,35 @@
 //! Building what may refuse or panic.
 
 use super::Choice;
-use crate::guard::guard;
-use accel::{Accel, Need, Scene};
+use crate::guard::{Panicked, guard};
+use accel::{Accel, BuildError, Need, Scene};
 
-/// Builds; what the builder refuses and what it panics with are both told in words.
+/// Why there is no structure.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildFailure {
+    /// The builder refused.
+    #[error(transparent)]
+    Refused(#[from] BuildError),
+    /// The builder panicked.
+    #[error(transparent)]
+    Panicked(#[from] Panicked),
+}
+
+impl BuildFailure {
+    /// Whether the structure merely has no way to serve the scene or the need.
+    pub fn is_unsupported(&self) -> bool {
+        matches!(self, Self::Refused(BuildError::Unsupported { .. }))
+    }
+}
+
+/// Builds; a panic of the builder is an error as well.
+///
+/// # Errors
+/// What the builder refuses, and what it panics with.
 pub fn guarded_build<'s>(
     choice: &Choice,
     scene: &'s Scene,
     need: &Need,
-) -> Result<Box<dyn Accel + 's>, String> {
-    guard("the build", || choice.builder.build(scene, need))
-        .and_then(|built| built.map_err(|e| e.to_string()))
+) -> Result<Box<dyn Accel + 's>, BuildFailure> {
+    Ok(guard("the build", || choice.builder.build(scene, need))??)
 }

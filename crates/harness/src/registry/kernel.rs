@@ -1,6 +1,7 @@
 //! Which ray-triangle test a chosen structure uses, and who chose it.
 
 use super::{Choice, Entry, RegistryError, Settings, StructureSpec};
+use crate::record::Intersector;
 use accel::{Accel, BuildError, Builder, Need, Scene};
 use primitives::KernelId;
 use std::sync::Arc;
@@ -14,8 +15,8 @@ pub const DEFAULT_MAX_ERROR: f64 = 1.0;
 /// A structure's ray-triangle test.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ChosenKernel {
-    /// A foreign structure's own.
-    Own,
+    /// An external structure's.
+    External,
     /// One of the suite's, as the user said or by default.
     Given(KernelId),
     /// To be decided for a scene and its rays.
@@ -35,7 +36,7 @@ pub enum ChosenKernel {
 impl ChosenKernel {
     pub(super) fn of(entry: &Entry, spec: &StructureSpec) -> Self {
         match spec.get("kernel") {
-            _ if !entry.traits.own_kernel => Self::Own,
+            _ if !entry.traits.built_in => Self::External,
             Some(AUTO) => Self::Auto { max_error: DEFAULT_MAX_ERROR },
             given => Self::Given(given.and_then(KernelId::from_id).unwrap_or(KernelId::MollerTrumbore)),
         }
@@ -43,7 +44,7 @@ impl ChosenKernel {
 
     pub(super) fn name(&self) -> &'static str {
         match self {
-            Self::Own => "own",
+            Self::External => "own",
             Self::Auto { .. } => AUTO,
             Self::Given(kernel) | Self::Decided { kernel, .. } => kernel.id(),
         }
@@ -67,7 +68,7 @@ impl ChosenKernel {
     ) -> Result<Arc<dyn Builder>, RegistryError> {
         let make = |spec: &StructureSpec| (entry.make)(&Settings::new(spec, entry.settings)?);
         match self {
-            Self::Own | Self::Given(_) => Ok(Arc::from(make(spec)?)),
+            Self::External | Self::Given(_) => Ok(Arc::from(make(spec)?)),
             Self::Decided { kernel, .. } => Ok(Arc::from(make(&spec.with("kernel", kernel.id()))?)),
             // Made once all the same, so that slips in other settings are found.
             Self::Auto { .. } => {
@@ -82,7 +83,25 @@ impl Choice {
     /// The kernel of the brute force that answers are compared with: the structure's, or Möller–Trumbore for one
     /// that brings its own.
     pub fn reference_kernel(&self) -> KernelId {
-        KernelId::from_id(self.kernel()).unwrap_or(KernelId::MollerTrumbore)
+        self.built_in_kernel().unwrap_or(KernelId::MollerTrumbore)
+    }
+
+    /// The suite's kernel that is used; none where the structure brings its own or none is decided yet.
+    pub fn built_in_kernel(&self) -> Option<KernelId> {
+        match self.kernel {
+            ChosenKernel::Given(kernel) | ChosenKernel::Decided { kernel, .. } => Some(kernel),
+            ChosenKernel::External | ChosenKernel::Auto { .. } => None,
+        }
+    }
+
+    /// The intersector as records name it.
+    pub fn intersector(&self) -> Intersector {
+        Intersector::from(self.kernel().to_owned())
+    }
+
+    /// Whether the kernel is left to the suite and not decided yet.
+    pub fn is_undecided(&self) -> bool {
+        matches!(self.kernel, ChosenKernel::Auto { .. })
     }
 
     /// The same structure with a kernel that was chosen for the user.

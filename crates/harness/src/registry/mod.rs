@@ -9,7 +9,7 @@ mod error;
 mod kernel;
 mod settings;
 
-pub use build::guarded_build;
+pub use build::{BuildFailure, guarded_build};
 pub use entries::keep_to_one_thread;
 pub use error::RegistryError;
 pub use kernel::{AUTO, ChosenKernel, DEFAULT_MAX_ERROR};
@@ -47,7 +47,7 @@ pub struct Traits {
     /// Part of the default comparison.
     pub default: bool,
     /// Uses the suite's kernels (setting `kernel`): must equal brute force bit for bit.
-    pub own_kernel: bool,
+    pub built_in: bool,
     /// Its time per ray grows with the number of objects: it gets fewer rays.
     pub linear: bool,
     /// What is built depends on the need: another build for every raster.
@@ -60,10 +60,10 @@ pub struct Traits {
 
 impl Traits {
     /// One of the suite's own structures.
-    pub const OWN: Self =
-        Self { default: true, own_kernel: true, linear: false, by_need: false, lists: true, counted: true };
+    pub const BUILT_IN: Self =
+        Self { default: true, built_in: true, linear: false, by_need: false, lists: true, counted: true };
     /// A structure from elsewhere with a ray-triangle test of its own.
-    pub const FOREIGN: Self = Self { own_kernel: false, ..Self::OWN };
+    pub const EXTERNAL: Self = Self { built_in: false, ..Self::BUILT_IN };
 }
 
 impl Traits {
@@ -218,7 +218,7 @@ mod tests {
     fn own_structures_take_a_kernel() {
         for entry in entries() {
             let takes = entry.settings.iter().any(|(name, _)| *name == "kernel");
-            assert_eq!(takes, entry.traits.own_kernel, "{}", entry.id);
+            assert_eq!(takes, entry.traits.built_in, "{}", entry.id);
         }
         assert_eq!(parse("minmax:kernel=watertight").unwrap().kernel(), "watertight");
     }

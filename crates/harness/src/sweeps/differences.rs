@@ -4,10 +4,11 @@ use super::unavailable;
 use crate::answers::Answers;
 use crate::check::{Reference, compare};
 use crate::guard::guard;
+use crate::progress::{Event, Listener};
 use crate::record::Query;
-use crate::registry::Choice;
-use crate::workload::{self, Workload, in_time, thin};
-use accel::{Accel, BuildError, Need, RaySet, Scene};
+use crate::registry::{Choice, guarded_build};
+use crate::workload::{self, Workload, batches, in_time, thin};
+use accel::{Accel, Need, RaySet, Scene};
 use primitives::KernelId;
 use rayon::prelude::*;
 use scenes::rays::RaysId;
@@ -81,15 +82,15 @@ pub fn hunting() -> Vec<String> {
     unit.chain(small.map(str::to_owned).into_iter().filter(|id| scenes::describe(id).is_ok())).collect()
 }
 
-/// Checks; `tell` gets a line for every scene.
+/// Checks; `listener` hears of every scene.
 ///
 /// # Errors
 /// A scene that is unsound; scenes that are not on this machine are passed over.
-pub fn run(sweep: &Sweep, choices: &[Choice], mut tell: impl FnMut(&str)) -> Result<Tally, SceneError> {
+pub fn run(sweep: &Sweep, choices: &[Choice], mut listener: impl Listener) -> Result<Tally, SceneError> {
     let mut tally = Tally::default();
     for choice in choices {
         tally.structures.push(Row { structure: choice.spec.to_string(), ..Row::default() });
-        tally.own.push(choice.entry.traits.own_kernel);
+        tally.own.push(choice.entry.traits.built_in);
     }
     let mut pass = 0;
     loop {
@@ -102,7 +103,7 @@ pub fn run(sweep: &Sweep, choices: &[Choice], mut tell: impl FnMut(&str)) -> Res
                 Err(error) => return Err(error),
             }
             if pass == 0 {
-                tell(id);
+                listener.hear(&Event::SceneChecked { id });
             }
         }
         pass += 1;
@@ -119,7 +120,7 @@ fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally:
     let few = usize::try_from(few).unwrap_or(usize::MAX);
     // A set that has no rays on this scene (no objects, no hits) is nothing to check.
     let workloads = workload::make(scene, &sweep.rays, sweep.size, seed).made;
-    let choices = crate::auto::resolve(choices, scene, &workloads);
+    let choices = crate::auto::resolve(choices, scene, &batches(&workloads));
     let sets: Vec<Set> = workloads
         .into_iter()
         .map(|set| Set { thinned: thin(&set.rays, few), set, right: Mutex::default() })
@@ -201,15 +202,11 @@ fn one_choice(sweep: &Sweep, scene: &Scene, choice: &Choice, sets: &[Set]) -> Fo
         let need = if traits.by_need || !traits.lists { Need::of(rays) } else { Need::GENERAL };
         let accel = match built.take().filter(|(known, _)| *known == need) {
             Some((_, accel)) => accel,
-            None => match guard("the build", || choice.builder.build(scene, &need)) {
-                Ok(Ok(accel)) => accel,
-                Ok(Err(BuildError::Unsupported { .. })) => continue,
-                Ok(Err(error)) => {
-                    found.broken(format!("{}: {}: {error}", choice.spec, scene.id));
-                    continue;
-                }
-                Err(error) => {
-                    found.broken(format!("{}: {}: {error}", choice.spec, scene.id));
+            None => match guarded_build(choice, scene, &need) {
+                Ok(accel) => accel,
+                Err(failure) if failure.is_unsupported() => continue,
+                Err(failure) => {
+                    found.broken(format!("{}: {}: {failure}", choice.spec, scene.id));
                     continue;
                 }
             },
@@ -244,7 +241,7 @@ fn one_set(
     let different = compare(&answers, right);
     found.rays += right.numbers.len() as u64;
     found.differences += different.len() as u64;
-    if let (true, Some(first)) = (choice.entry.traits.own_kernel, different.first()) {
+    if let (true, Some(first)) = (choice.entry.traits.built_in, different.first()) {
         let ray = rays.ray(*first);
         found.findings.push(format!("{place}: {} rays differ, first {first}: {ray:?}", different.len()));
     }
@@ -272,7 +269,7 @@ mod tests {
             rays_each: 10_000,
             tests: 100_000_000,
         };
-        run(&sweep, &choices, |_| ()).unwrap()
+        run(&sweep, &choices, ()).unwrap()
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use crate::check::oracle_of;
 use crate::guard::guard;
+use crate::progress::{Event, Listener};
 use crate::registry::{Choice, guarded_build};
 use accel::{Builder, Geometry, Need, Scene};
 use baselines::Brute;
@@ -69,13 +70,7 @@ impl LeakTally {
     }
 }
 
-/// Whether a kernel promises that neighbours share their edge.
-fn promises(choice: &Choice) -> bool {
-    let tight = [KernelId::Watertight, KernelId::Exact].map(KernelId::id);
-    tight.contains(&choice.kernel())
-}
-
-/// At least `least` rays in all for each structure; `tell` gets a line for every mesh and scale.
+/// At least `least` rays in all for each structure; `listener` hears of every mesh and scale.
 ///
 /// # Errors
 /// A mesh that can't be had.
@@ -83,7 +78,7 @@ pub fn run(
     least: u64,
     seed: u64,
     choices: &[Choice],
-    mut tell: impl FnMut(&str),
+    mut listener: impl Listener,
 ) -> Result<LeakTally, SceneError> {
     let parts = MESHES.len() * SCALES.len() * SETS.len();
     let side = ((least as f64 / parts as f64).sqrt().ceil() as u32).max(1);
@@ -91,7 +86,7 @@ pub fn run(
     for mesh in MESHES {
         let plain = scenes::load(&mesh.parse()?)?;
         for scale in SCALES {
-            tell(&format!("{mesh} × {scale}"));
+            listener.hear(&Event::MeshBegun { id: mesh, scale });
             let scene = scaled(&plain, scale);
             let (rays, rows) = one_mesh(mesh, scale, &scene, side, seed, choices).unwrap_or_default();
             tally.rays += rays;
@@ -127,7 +122,7 @@ fn one_mesh(
         structure: choice.spec.to_string(),
         rays: 0,
         leaks: [0; 3],
-        promised: promises(choice),
+        promised: choice.built_in_kernel().is_some_and(KernelId::is_watertight),
         error: None,
     };
     let mut rows: Vec<LeakRow> = choices.iter().map(blank).collect();
@@ -138,8 +133,8 @@ fn one_mesh(
         for (row, built) in rows.iter_mut().zip(&built) {
             let mut hits = vec![None; rays.len()];
             let traced = match built {
-                Ok(accel) => guard("tracing", || accel.trace(&rays, &mut hits)),
-                Err(error) => Err(error.clone()),
+                Ok(accel) => guard("tracing", || accel.trace(&rays, &mut hits)).map_err(|e| e.to_string()),
+                Err(failure) => Err(failure.to_string()),
             };
             row.rays += rays.len() as u64;
             row.error = traced.err().or(row.error.take());
@@ -161,7 +156,7 @@ mod tests {
     fn watertight_kernels_are_tight_and_others_leak() {
         let ids = ["bmssm:kernel=exact", "ssm:kernel=watertight", "ssm:kernel=moller-trumbore"];
         let choices = ids.map(|id| registry::parse(id).unwrap());
-        let tally = run(40_000, 1, &choices, |_| ()).unwrap();
+        let tally = run(40_000, 1, &choices, ()).unwrap();
         assert!(tally.rays >= 40_000 && tally.rows.len() == 18, "{tally:?}");
         assert!(tally.is_tight(), "{tally:?}");
         let sums = tally.sums();

@@ -3,13 +3,14 @@
 use super::unavailable;
 use crate::check::oracle_of;
 use crate::guard::guard;
+use crate::progress::{Event, Listener};
 use crate::registry::{Choice, guarded_build};
-use crate::workload;
+use crate::workload::{self, batches};
 use accel::{Geometry, Hit, Need, RaySet, Scene};
 use oracle::{ExactHit, Verdict, classify};
 use rayon::prelude::*;
 use scenes::SceneError;
-use scenes::rays::{Query, RaysId};
+use scenes::rays::{Feature, Query, RaysId};
 use serde::Serialize;
 
 /// What is judged.
@@ -82,14 +83,14 @@ impl OracleTally {
     }
 }
 
-/// Judges; `tell` gets a line for every scene.
+/// Judges; `listener` hears of every scene.
 ///
 /// # Errors
 /// A scene that is unsound; scenes that are not on this machine are passed over.
 pub fn run(
     plan: &OraclePlan,
     choices: &[Choice],
-    mut tell: impl FnMut(&str),
+    mut listener: impl Listener,
 ) -> Result<OracleTally, SceneError> {
     let row = |choice: &Choice| OracleRow { structure: choice.spec.to_string(), ..OracleRow::default() };
     let mut tally = OracleTally { structures: choices.iter().map(row).collect(), ..OracleTally::default() };
@@ -107,10 +108,10 @@ pub fn run(
                 }
                 Err(error) => return Err(error),
             };
-            if pass == 0 {
-                tell(id);
-            }
             one_scene(plan, &scene, choices, plan.seed + pass, &mut tally);
+            if pass == 0 {
+                listener.hear(&Event::SceneChecked { id });
+            }
         }
         if pass == 0 {
             tally.scenes = plan.scenes.len() - tally.findings.len();
@@ -129,7 +130,7 @@ fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, ta
     let oracle = oracle_of(scene);
     let sets: Vec<RaysId> = plan.rays.iter().copied().filter(|id| id.query() == Query::Closest).collect();
     let workloads = workload::make(scene, &sets, plan.size, seed).made;
-    let choices = crate::auto::resolve(choices, scene, &workloads);
+    let choices = crate::auto::resolve(choices, scene, &batches(&workloads));
     let general: Vec<_> = choices.iter().map(|c| guarded_build(c, scene, &Need::GENERAL)).collect();
     for workload in &workloads {
         let rays = &workload.rays;
@@ -137,7 +138,7 @@ fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, ta
         let fair: Vec<usize> = (0..rays.len()).filter(|i| !is_denormal(truth[*i].as_ref())).collect();
         tally.rays += fair.len() as u64;
         tally.left_out += (rays.len() - fair.len()) as u64;
-        if matches!(workload.id.as_str(), "edge" | "vertex" | "leak-edge" | "leak-vertex") {
+        if matches!(workload.id.aims_at(), Some(Feature::Edge | Feature::Vertex)) {
             tally.aimed += fair.len() as u64;
         }
         for (row, choice) in choices.iter().enumerate() {
@@ -152,8 +153,8 @@ fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, ta
             };
             let mut hits = vec![None; rays.len()];
             let traced = match built {
-                Ok(accel) => guard("tracing", || accel.trace(rays, &mut hits)),
-                Err(error) => Err(error.clone()),
+                Ok(accel) => guard("tracing", || accel.trace(rays, &mut hits)).map_err(|e| e.to_string()),
+                Err(failure) => Err(failure.to_string()),
             };
             if let Err(error) = traced {
                 tally.structures[row].failed += 1;
@@ -217,7 +218,7 @@ mod tests {
             seed: 1,
             least: 6000,
         };
-        let tally = run(&plan, &choices, |_| ()).unwrap();
+        let tally = run(&plan, &choices, ()).unwrap();
         assert!(tally.rays >= 6000 && tally.aimed > 1000, "{tally:?}");
         assert!(!tally.is_exact());
         let [grid, maps, rounding] = &tally.structures[..] else { panic!() };

@@ -76,8 +76,8 @@ pub fn judge(accel: &dyn Accel, sets: &[(&Workload, Truth)], extent: f32) -> Acc
     for (set, Truth(truth)) in sets {
         let mut hits = vec![None; set.rays.len()];
         accel.trace(&set.rays, &mut hits);
-        let leaking = set.id.starts_with("leak-");
-        let spawned = set.id == "surface";
+        let leaking = set.id.starts_inside();
+        let spawned = set.id.starts_on_surfaces();
         for (i, (hit, exact)) in hits.iter().zip(truth).enumerate() {
             let judgement = classify(*hit, exact.as_ref());
             sum.rays += 1;

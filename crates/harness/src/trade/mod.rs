@@ -10,11 +10,12 @@ pub use row::{Row, mark_front};
 use crate::check::oracle_of;
 use crate::guard::guard;
 use crate::machine::Machine;
-use crate::measure::{Job, Options, Watch, measure};
+use crate::measure::{Failure, Job, Options, Watch, measure};
+use crate::progress::{Event, Listener};
 use crate::record::{Cell, SceneEntry, Skipped, Suite};
 use crate::registry::{self, Choice, StructureSpec, guarded_build};
 use crate::stats::geometric_mean;
-use crate::workload::{self, Workload, Workloads};
+use crate::workload::{self, Workload, Workloads, batches};
 use accel::{Geometry, Need, Scene};
 use oracle::Oracle;
 use primitives::KernelId;
@@ -78,22 +79,22 @@ pub struct Trade {
 /// whose time they change: not for those that test every object anyway.
 pub fn defaults() -> Vec<StructureSpec> {
     let mut all = Vec::new();
-    for entry in registry::entries().iter().filter(|e| e.traits.own_kernel && e.traits.default) {
+    for entry in registry::entries().iter().filter(|e| e.traits.built_in && e.traits.default) {
         let linear = entry.traits.linear;
         for kernel in KernelId::ALL.into_iter().filter(|kernel| !(linear && kernel.is_lossy())) {
             let spec = StructureSpec { id: entry.id.to_owned(), settings: Vec::new() };
             all.push(spec.with_default("kernel", kernel));
         }
     }
-    all.extend(registry::with_variants(|entry| !entry.traits.own_kernel && entry.traits.lists));
+    all.extend(registry::with_variants(|entry| !entry.traits.built_in && entry.traits.lists));
     all
 }
 
-/// Measures and judges; `tell` gets a line for every scene.
+/// Measures and judges; `listener` hears of every scene.
 ///
 /// # Errors
 /// A scene that is unsound; scenes that are merely not on this machine are skipped.
-pub fn run(plan: &Plan, choices: &[Choice], mut tell: impl FnMut(&str)) -> Result<Trade, SceneError> {
+pub fn run(plan: &Plan, choices: &[Choice], mut listener: impl Listener) -> Result<Trade, SceneError> {
     if rayon::current_num_threads() == 1 {
         registry::keep_to_one_thread();
     }
@@ -108,11 +109,12 @@ pub fn run(plan: &Plan, choices: &[Choice], mut tell: impl FnMut(&str)) -> Resul
             .map(|a| Skipped { id: a.id.to_owned(), reason: a.reason })
             .collect(),
     };
-    for id in &plan.scenes {
+    for (i, id) in plan.scenes.iter().enumerate() {
         let spec: SceneSpec = id.parse()?;
         let loaded = match scenes::load_full(&spec) {
             Ok(loaded) => loaded,
             Err(error) if error.is_unavailable() => {
+                listener.hear(&Event::SceneSkipped { id, reason: &error });
                 trade.skipped.push(Skipped { id: id.clone(), reason: error.to_string() });
                 continue;
             }
@@ -122,7 +124,13 @@ pub fn run(plan: &Plan, choices: &[Choice], mut tell: impl FnMut(&str)) -> Resul
             trade.skipped.push(Skipped { id: id.clone(), reason: "only triangles have kernels".to_owned() });
             continue;
         };
-        tell(&format!("{id}: {} triangles", mesh.triangles.len()));
+        listener.hear(&Event::SceneBegun {
+            id,
+            place: i + 1,
+            of: plan.scenes.len(),
+            objects: mesh.triangles.len(),
+            kind: loaded.scene.geometry.kind(),
+        });
         trade.scenes.push(SceneEntry {
             id: loaded.scene.id.clone(),
             objects: mesh.triangles.len() as u64,
@@ -152,12 +160,12 @@ fn one_scene(
     };
     let timed = make(&plan.timed, plan.size);
     let judged = make(&JUDGED, plan.judged);
-    let choices = &*crate::auto::resolve(choices, scene, &judged);
+    let choices = &*crate::auto::resolve(choices, scene, &batches(&judged));
     let watch = Watch::default();
     let job = Job { scene, workloads: &timed, choices, options: &plan.options, known: &[], watch: &watch };
     let mut cells: Vec<Cell> = Vec::new();
     measure(&job, |workload, _, more| {
-        cells.retain(|cell| cell.rays != workload.id);
+        cells.retain(|cell| cell.rays != workload.id.name());
         cells.extend(more);
     });
     let truths: Vec<(&Workload, Truth)> = judged.iter().map(|w| (w, Truth::of(oracle, &w.rays))).collect();
@@ -171,23 +179,31 @@ fn one_scene(
         let mut row = Row {
             scene: scene.id.clone(),
             structure: name,
-            kernel: choice.kernel().to_owned(),
+            kernel: choice.intersector(),
             kernel_reason: choice.reason().to_owned(),
             ns_per_ray: ns.as_deref().and_then(geometric_mean),
             bytes: bytes.map(|b| b.structure + b.geometry_copy),
             accuracy: None,
             front: false,
-            error: mine.iter().find_map(|cell| cell.error.clone()),
+            outcome: mine.iter().map(|c| &c.outcome).find(|o| !o.is_measured()).cloned().unwrap_or_default(),
         };
-        let accuracy = guarded_build(choice, scene, &Need::GENERAL)
-            .and_then(|accel| guard("tracing", || judge(accel.as_ref(), &truths, extent)));
-        match accuracy {
+        match accuracy(choice, scene, &truths, extent) {
             Ok(accuracy) => row.accuracy = Some(accuracy),
-            Err(error) => row.error = Some(error),
+            Err(failure) => row.outcome = failure.into(),
         }
         rows.push(row);
     }
     rows
+}
+
+fn accuracy(
+    choice: &Choice,
+    scene: &Scene,
+    truths: &[(&Workload, Truth)],
+    extent: f32,
+) -> Result<Accuracy, Failure> {
+    let accel = guarded_build(choice, scene, &Need::GENERAL)?;
+    Ok(guard("tracing", || judge(accel.as_ref(), truths, extent))?)
 }
 
 #[cfg(test)]
@@ -205,7 +221,7 @@ mod tests {
             options: Options { rounds: 1, least_rounds: 1, ..Options::default() },
             command: "test".into(),
         };
-        run(&plan, &choices, |_| ()).unwrap()
+        run(&plan, &choices, ()).unwrap()
     }
 
     #[test]

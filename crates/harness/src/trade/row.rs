@@ -1,6 +1,7 @@
 //! Rows of the trade: time, memory and errors side by side.
 
 use super::Accuracy;
+use crate::record::{Intersector, Outcome};
 use serde::Serialize;
 
 /// A structure with a kernel on a scene.
@@ -10,8 +11,8 @@ pub struct Row {
     pub scene: String,
     /// Structure with its settings.
     pub structure: String,
-    /// Kernel, or `own` for a foreign structure's.
-    pub kernel: String,
+    /// Ray-triangle intersector.
+    pub kernel: Intersector,
     /// Why this kernel was chosen, where that was left to the suite.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub kernel_reason: String,
@@ -23,8 +24,9 @@ pub struct Row {
     pub accuracy: Option<Accuracy>,
     /// Whether no other row of the scene is as fast and as right, and better in one of them.
     pub front: bool,
-    /// What went wrong, if anything did.
-    pub error: Option<String>,
+    /// Whether its times and errors are known, and why not.
+    #[serde(flatten)]
+    pub outcome: Outcome,
 }
 
 impl Row {
@@ -53,13 +55,13 @@ mod tests {
         let row = |ns: f64, missed: u64| Row {
             scene: "s".into(),
             structure: "x".into(),
-            kernel: "own".into(),
+            kernel: Intersector::External,
             kernel_reason: String::new(),
             ns_per_ray: Some(ns),
             bytes: None,
             accuracy: Some(Accuracy { rays: 100, missed, ..Accuracy::default() }),
             front: false,
-            error: None,
+            outcome: Outcome::Measured,
         };
         let mut rows = [row(1.0, 5), row(2.0, 5), row(2.0, 1), row(3.0, 0), row(4.0, 0)];
         rows[4].ns_per_ray = None;

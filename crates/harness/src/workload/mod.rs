@@ -15,12 +15,33 @@ use scenes::rays::{self, RaysError, RaysId, RaysSpec};
 /// A ray set of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
-    /// The ray set's name.
-    pub id: String,
+    /// Which ray set.
+    pub id: RaysId,
     /// The rays.
     pub rays: RaySet,
     /// What is asked of each.
     pub query: Query,
+}
+
+impl Workload {
+    /// The rays and what is asked of them, whatever set they are of.
+    pub fn batch(&self) -> Batch<'_> {
+        Batch { rays: &self.rays, query: self.query }
+    }
+}
+
+/// Rays and what is asked of each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Batch<'r> {
+    /// The rays.
+    pub rays: &'r RaySet,
+    /// What is asked of each.
+    pub query: Query,
+}
+
+/// The rays of workloads.
+pub fn batches(workloads: &[Workload]) -> Vec<Batch<'_>> {
+    workloads.iter().map(Workload::batch).collect()
 }
 
 /// The workloads of a scene.
@@ -38,12 +59,8 @@ pub fn make(scene: &Scene, sets: &[RaysId], size: u32, seed: u64) -> Workloads {
     let mut all = Workloads::default();
     for id in sets {
         let spec = RaysSpec { id: *id, rows: size, cols: size, seed };
-        let query = match id.query() {
-            rays::Query::Closest => Query::Closest,
-            rays::Query::Occlusion => Query::Occluded,
-        };
         match rays::generate(scene, &spec, tracer.as_ref()) {
-            Ok(rays) => all.made.push(Workload { id: id.to_string(), rays, query }),
+            Ok(rays) => all.made.push(Workload { id: *id, rays, query: id.query() }),
             Err(error) => all.left_out.push((*id, error)),
         }
     }

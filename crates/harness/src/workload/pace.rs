@@ -3,7 +3,7 @@
 use super::thin;
 use crate::answers::Answers;
 use crate::clock::Clock;
-use crate::guard::guard;
+use crate::guard::{Panicked, guard};
 use crate::record::Query;
 use accel::{Accel, RaySet};
 use std::borrow::Cow;
@@ -24,7 +24,7 @@ pub fn in_time<'a>(accel: &dyn Accel, rays: &'a RaySet, query: Query, time: Dura
         let start = clock.now();
         guard("tracing", || answers.trace(accel, &few)).map(|()| Duration::from_nanos(clock.now() - start))
     };
-    let runs: Result<Vec<Duration>, String> = std::iter::repeat_with(run).take(2).collect();
+    let runs: Result<Vec<Duration>, Panicked> = std::iter::repeat_with(run).take(2).collect();
     // A structure that panics is found out where its answers are asked for.
     let Some(least) = runs.ok().and_then(|runs| runs.into_iter().min()) else {
         return Cow::Borrowed(rays);

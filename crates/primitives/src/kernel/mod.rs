@@ -235,6 +235,11 @@ impl KernelId {
         matches!(self, Self::Quantised | Self::BoundingBox)
     }
 
+    /// Whether no ray slips between two triangles that share an edge.
+    pub const fn is_watertight(self) -> bool {
+        matches!(self, Self::Watertight | Self::Exact)
+    }
+
     /// Name as used in settings and records.
     pub const fn id(self) -> &'static str {
         match self {

@@ -45,7 +45,7 @@ impl KernelOptions {
     pub fn choose_all(&self, specs: &[StructureSpec]) -> Result<Vec<Choice>, Error> {
         let kernel = self.name()?;
         let choose = |spec: &StructureSpec| -> Result<Choice, Error> {
-            let own = registry::find(&spec.id)?.traits.own_kernel;
+            let own = registry::find(&spec.id)?.traits.built_in;
             let spec = match kernel {
                 Some(kernel) if own => spec.clone().with_default("kernel", kernel),
                 _ => spec.clone(),
@@ -64,7 +64,7 @@ impl KernelOptions {
         let mut spec: StructureSpec = text.parse()?;
         if let Some(kernel) = self.name()? {
             let entry = registry::find(&spec.id)?;
-            if !entry.traits.own_kernel {
+            if !entry.traits.built_in {
                 return Err(Error::usage(
                     format!(
                         "structure `{}` brings its own ray-triangle test; it takes no --kernel",

@@ -53,15 +53,12 @@ impl Selection {
     ///
     /// # Errors
     /// A ray set that is not known.
-    pub fn rays(&self, otherwise: &[RaysId]) -> Result<Vec<RaysId>, Error> {
+    pub fn rays(&self, otherwise: impl IntoIterator<Item = RaysId>) -> Result<Vec<RaysId>, Error> {
         if self.rays.is_empty() {
-            return Ok(otherwise.to_vec());
+            return Ok(otherwise.into_iter().collect());
         }
         let all = RaysId::ALL.map(RaysId::name);
-        let find = |name: &String| {
-            let known = RaysId::ALL.into_iter().find(|id| id.name() == name);
-            known.ok_or_else(|| Error::unknown("ray set", name, all))
-        };
+        let find = |name: &String| name.parse().map_err(|_| Error::unknown("ray set", name, all));
         self.rays.iter().map(find).collect()
     }
 

@@ -3,6 +3,7 @@
 use crate::console::Console;
 use crate::error::Error;
 use crate::options::Selection;
+use crate::progress::Progress;
 use crate::verb::{Outcome, Verb};
 use clap::Args;
 use harness::registry::{self, StructureSpec};
@@ -88,13 +89,16 @@ fn by_oracle(console: &Console, selection: &Selection, least: u64) -> Result<Ora
     let all = || scenes::list().into_iter().map(|info| info.id).filter(|id| id != SLOW).collect();
     let plan = OraclePlan {
         scenes: if selection.scenes.is_empty() { all() } else { selection.scenes()? },
-        rays: selection.rays(&RaysId::ALL)?,
+        rays: selection.rays(RaysId::ALL)?,
         size: selection.size.unwrap_or(48),
         seed: selection.seed,
         least,
     };
     let choices = selection.structures(&specs(&["bmssm:kernel=exact", "ssm:kernel=exact"]))?;
-    Ok(console.in_pool(0, || oracle::run(&plan, &choices, |line| console.note(line)))??)
+    let mut progress = Progress::new(console, plan.scenes.len(), "judging");
+    let tally = console.in_pool(0, || oracle::run(&plan, &choices, &mut progress))??;
+    progress.finish();
+    Ok(tally)
 }
 
 /// The structures with a kernel that promises not to leak, and Embree on the same rays.
@@ -110,7 +114,10 @@ fn from_inside(console: &Console, selection: &Selection, least: u64) -> Result<L
     all.retain(|spec| registry::find(&spec.id).is_ok());
     let choices = selection.structures(&all)?;
     let seed = selection.seed;
-    Ok(console.in_pool(0, || leaks::run(least, seed, &choices, |line| console.note(line)))??)
+    let mut progress = Progress::new(console, leaks::MESHES.len() * leaks::SCALES.len(), "tracing");
+    let tally = console.in_pool(0, || leaks::run(least, seed, &choices, &mut progress))??;
+    progress.finish();
+    Ok(tally)
 }
 
 fn specs(texts: &[&str]) -> Vec<StructureSpec> {
@@ -121,7 +128,7 @@ fn specs(texts: &[&str]) -> Vec<StructureSpec> {
 fn plain(console: &Console, selection: &Selection) -> Result<Tally, Error> {
     let sweep = Sweep {
         scenes: selection.scenes()?,
-        rays: selection.rays(&RaysId::ALL)?,
+        rays: selection.rays(RaysId::ALL)?,
         size: selection.size.unwrap_or(128),
         seed: selection.seed,
         rays_each: 0,
@@ -138,14 +145,14 @@ pub fn full(console: &Console, selection: &Selection) -> Result<Tally, Error> {
     let scenes = if selection.scenes.is_empty() { differences::hunting() } else { selection.scenes()? };
     let sweep = Sweep {
         scenes,
-        rays: selection.rays(&RaysId::ALL)?,
+        rays: selection.rays(RaysId::ALL)?,
         size: selection.size.unwrap_or(FULL_SIZE),
         seed: selection.seed,
         rays_each: 10_000_000,
         tests: 400_000_000,
     };
     let own: Vec<StructureSpec> =
-        registry::with_variants(|entry| entry.traits.own_kernel && entry.id != "brute");
+        registry::with_variants(|entry| entry.traits.built_in && entry.id != "brute");
     run(console, &sweep, selection, &own)
 }
 
@@ -156,17 +163,9 @@ fn run(
     otherwise: &[StructureSpec],
 ) -> Result<Tally, Error> {
     let choices = selection.structures(otherwise)?;
-    let bar = console.bar(sweep.scenes.len() as u64, "checking");
-    let tally = console.in_pool(0, || {
-        differences::run(sweep, &choices, |line| {
-            bar.inc(1);
-            bar.set_message(line.to_owned());
-            if bar.is_hidden() {
-                console.note(line);
-            }
-        })
-    })??;
-    bar.finish_and_clear();
+    let mut progress = Progress::new(console, sweep.scenes.len(), "checking");
+    let tally = console.in_pool(0, || differences::run(sweep, &choices, &mut progress))??;
+    progress.finish();
     Ok(tally)
 }
 

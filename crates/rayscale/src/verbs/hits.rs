@@ -6,7 +6,7 @@ use accel::{Hit, Need, RaySet, Scene};
 use harness::auto;
 use harness::record::Query;
 use harness::registry::Choice;
-use harness::workload::Workload;
+use harness::workload::Batch;
 use std::time::{Duration, Instant};
 
 /// Hits, and what they took.
@@ -31,10 +31,9 @@ pub struct Traced {
 /// Where the structure can't serve this scene or these rays.
 pub fn trace(console: &Console, choice: &Choice, scene: &Scene, rays: &RaySet) -> Result<Traced, Error> {
     console.in_pool(0, || {
-        let workload = || Workload { id: String::new(), rays: rays.clone(), query: Query::Closest };
-        let undecided = choice.kernel() == harness::registry::AUTO;
-        let workloads = if undecided { vec![workload()] } else { Vec::new() };
-        let choices = auto::resolve(std::slice::from_ref(choice), scene, &workloads);
+        let batch = Batch { rays, query: Query::Closest };
+        let choices = auto::resolve(std::slice::from_ref(choice), scene, &[batch]);
+        let undecided = choice.is_undecided();
         let choice = &choices[0];
         if undecided {
             console.note(format!("kernel {}: {}", choice.kernel(), choice.reason()));

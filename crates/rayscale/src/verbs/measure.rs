@@ -4,10 +4,11 @@ use crate::console::Console;
 use crate::error::Error;
 use crate::interrupt;
 use crate::options::Selection;
+use crate::progress::Progress;
 use crate::verb::{Outcome, Verb, command_line};
 use clap::Args;
 use harness::measure::{self, Options, Session, Watch};
-use harness::record::{self, Record};
+use harness::record::{self, Cell, Record};
 use harness::registry::{self, Choice};
 use harness::units;
 use scenes::rays::RaysId;
@@ -90,7 +91,7 @@ pub fn measure(
     let defaults = Options::default();
     let session = Session {
         scenes: selection.scenes()?,
-        rays: selection.rays(&RaysId::MEASURED)?,
+        rays: selection.rays(RaysId::measured())?,
         size: selection.size.unwrap_or(SIZE),
         seed: selection.seed,
         options: Options {
@@ -107,25 +108,14 @@ pub fn measure(
     };
     let begun = begun(&session, &choices, effort, out)?;
     let steps = session.scenes.len() * session.rays.len() * session.options.passes();
-    let bar = console.bar(steps as u64, "measuring");
+    let mut progress = Progress::new(console, steps, "measuring");
     let mut unwritten = None;
     let record = console.in_pool(1, || {
-        let tell = |line: &str| {
-            if line.starts_with(' ') {
-                bar.inc(1);
-            }
-            if bar.is_hidden() {
-                // Further passes are no news to a log.
-                if !line.starts_with("    ") {
-                    console.note(line);
-                }
-            } else {
-                bar.set_message(line.trim().to_owned());
-            }
-        };
-        measure::run(&session, &choices, begun, tell, |record| unwritten = record::write(out, record).err())
+        measure::run(&session, &choices, begun, &mut progress, |record| {
+            unwritten = record::write(out, record).err();
+        })
     })??;
-    bar.finish_and_clear();
+    progress.finish();
     // What was measured is shown even where it can't be written; the error comes last.
     if unwritten.is_some() || record.scenes.is_empty() {
         record::write(out, &record)?;
@@ -160,12 +150,12 @@ fn without_resume(command: &str) -> String {
     command.replace(" --resume", "")
 }
 
-/// A line for each cell that failed for another reason than that the structure doesn't serve it.
+/// A line for each cell that failed.
 pub fn failures(record: &Record) -> Vec<String> {
-    let failed = record.cells.iter().filter_map(|cell| {
-        let error = cell.error.as_ref()?;
-        (!error.contains(" does not serve "))
-            .then(|| format!("{} {} {}: {error}", cell.scene, cell.rays, cell.structure))
-    });
-    failed.collect()
+    let failed = record.cells.iter().filter(|cell| cell.outcome.is_failed());
+    let line = |cell: &Cell| {
+        let reason = cell.outcome.reason().unwrap_or_default();
+        format!("{} {} {}: {reason}", cell.scene, cell.rays, cell.structure)
+    };
+    failed.map(line).collect()
 }

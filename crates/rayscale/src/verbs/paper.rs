@@ -43,7 +43,7 @@ impl Verb for PaperVerb {
             None => {
                 let effort = if self.quick { Effort::QUICK } else { Effort::FULL };
                 // Loops are compared: other threads would only disturb.
-                console.in_pool(1, || run(&effort, self.scene.as_deref(), &|what| console.note(what)))??
+                console.in_pool(1, || run(&effort, self.scene.as_deref(), |stage| console.note(stage)))??
             }
         };
         let place = |error| Error::io(self.out.display(), error);

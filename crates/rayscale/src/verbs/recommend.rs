@@ -4,13 +4,14 @@ use crate::console::Console;
 use crate::error::Error;
 use crate::options::Selection;
 use crate::options::per_million;
+use crate::progress::Progress;
 use crate::verb::{Outcome, Verb};
 use accel::{Need, Scene};
 use clap::Args;
 use harness::auto::Examiner;
 use harness::guard::guard;
 use harness::measure::{Options, Session, begin, run};
-use harness::recommend::{self, Candidate, ErrorRate, ErrorRates, Recommendation, Wish, rank};
+use harness::recommend::{self, Answerer, Candidate, ErrorRate, ErrorRates, Recommendation, Wish, rank};
 use harness::record::Record;
 use harness::registry::{self, Choice, StructureSpec, guarded_build};
 use harness::units;
@@ -92,7 +93,7 @@ const KERNELS: [KernelId; 4] =
 impl Verb for Recommend {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
         let selection = Selection { rays: self.rays.clone(), ..Selection::default() };
-        let rays = selection.rays(&[])?;
+        let rays = selection.rays([])?;
         let spec: SceneSpec = self.scene.parse()?;
         let scene = scenes::load(&spec)?;
         let choices = choices(&scene, self.max_error.is_some())?;
@@ -110,13 +111,15 @@ impl Verb for Recommend {
             max_error: self.max_error.map(|rate| rate / 1e6),
             rays_per_build: self.rays_per_build.map(|n| n as f64),
         };
+        let steps = session.rays.len() * session.options.passes();
+        let mut progress = Progress::new(console, steps, "measuring");
         let (record, errors) = console.in_pool(1, || {
-            let record =
-                run(&session, &choices, begin(&session, &choices), |line| tell(console, line), |_| {});
+            let record = run(&session, &choices, begin(&session, &choices), &mut progress, |_| {});
             let errors =
                 if self.max_error.is_some() { errors(&session, &scene, &choices) } else { ErrorRates::new() };
             (record, errors)
         })?;
+        progress.finish();
         let record = record?;
         let ranking = rank(&record, &errors, &wish);
         console.result(
@@ -124,13 +127,6 @@ impl Verb for Recommend {
             in_words(&record, &wish, &ranking),
         )?;
         Ok(if ranking.fitting.is_empty() { Outcome::Failed } else { Outcome::Done })
-    }
-}
-
-/// Tells of scenes and ray sets; further passes are no news.
-fn tell(console: &Console, line: &str) {
-    if !line.starts_with("    ") {
-        console.note(line);
     }
 }
 
@@ -177,13 +173,13 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
 fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
     let mut all = ErrorRates::new();
     let workloads = workload::make(scene, &session.rays, session.size, session.seed).made;
-    let mut examiner = Examiner::new(scene, &workloads, JUDGED * workloads.len());
-    let mut enter = |name: &str, rates: Vec<ErrorRate>| {
-        all.extend(workloads.iter().zip(rates).map(|(w, rate)| ((name.to_owned(), w.id.clone()), rate)));
+    let mut examiner = Examiner::new(scene, &workload::batches(&workloads), JUDGED * workloads.len());
+    let mut enter = |answerer: Answerer, rates: Vec<ErrorRate>| {
+        all.extend(workloads.iter().zip(rates).map(|(w, rate)| ((answerer.clone(), w.id.to_string()), rate)));
     };
     for kernel in KERNELS {
         enter(
-            kernel.id(),
+            Answerer::Kernel(kernel),
             match kernel {
                 KernelId::Exact => vec![ErrorRate::NONE; workloads.len()],
                 _ => examiner.examine(kernel).iter().map(ErrorRate::seen).collect(),
@@ -191,11 +187,11 @@ fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
         );
     }
     // Those that serve one image only are left to the checks of their cells.
-    for choice in choices.iter().filter(|c| !c.entry.traits.own_kernel && c.entry.traits.lists) {
+    for choice in choices.iter().filter(|c| !c.entry.traits.built_in && c.entry.traits.lists) {
         // Whoever can't be built, or panics, has said so where it was measured.
         let Ok(accel) = guarded_build(choice, scene, &Need::GENERAL) else { continue };
         if let Ok(wrong) = guard("tracing", || examiner.examine_structure(accel.as_ref())) {
-            enter(&choice.spec.to_string(), wrong.iter().map(ErrorRate::seen).collect());
+            enter(Answerer::Structure(choice.spec.to_string()), wrong.iter().map(ErrorRate::seen).collect());
         }
     }
     all

@@ -3,6 +3,7 @@
 use crate::console::Console;
 use crate::error::Error;
 use crate::options::Selection;
+use crate::progress::Progress;
 use crate::verb::{Outcome, Verb, command_line};
 use clap::Args;
 use harness::measure::Options;
@@ -40,7 +41,7 @@ impl Verb for Trade {
         let rounds = usize::from(self.rounds);
         let plan = Plan {
             scenes: self.selection.scenes()?,
-            timed: self.selection.rays(&TIMED)?,
+            timed: self.selection.rays(TIMED)?,
             size: self.selection.size.unwrap_or(128),
             judged: self.judged,
             seed: self.selection.seed,
@@ -53,7 +54,9 @@ impl Verb for Trade {
             command: command_line(),
         };
         std::fs::create_dir_all(&self.out).map_err(|error| Error::io(self.out.display(), error))?;
-        let trade = console.in_pool(1, || trade::run(&plan, &choices, |line| console.note(line)))??;
+        let mut progress = Progress::new(console, plan.scenes.len() * plan.timed.len(), "measuring");
+        let trade = console.in_pool(1, || trade::run(&plan, &choices, &mut progress))??;
+        progress.finish();
         let table = report::trade::table(&trade.rows);
         let json = serde_json::to_string_pretty(&trade).map_err(io::Error::other);
         let json = json.map_err(|error| Error::io("trade.json", error))?;
@@ -62,11 +65,9 @@ impl Verb for Trade {
         self.write("trade.md", &text)?;
         self.write("trade.svg", &report::trade::svg(&trade))?;
         console.result(&trade, table.text())?;
-        let failed = trade.rows.iter().filter(|row| row.error.is_some());
-        let lines = failed.map(|row| {
-            format!("{} {}: {}", row.scene, row.structure, row.error.as_deref().unwrap_or_default())
-        });
-        let lines: Vec<String> = lines.collect();
+        let failed = trade.rows.iter().filter_map(|row| Some((row, row.outcome.reason()?)));
+        let lines: Vec<String> =
+            failed.map(|(row, reason)| format!("{} {}: {reason}", row.scene, row.structure)).collect();
         lines.iter().for_each(|line| console.note(line));
         Ok(if lines.is_empty() { Outcome::Done } else { Outcome::Failed })
     }

@@ -54,7 +54,7 @@ pub fn large() -> Record {
             }
         }
     }
-    cells[7].error = Some(
+    cells[7].outcome = Outcome::Unsupported(
         "obvhs-cwbvh does not serve this: a reason that is rather long, for a test of narrow pages".into(),
     );
     cells[7].ns_per_ray = None;
@@ -128,7 +128,7 @@ fn cell(scene: &str, objects: u64, rays: &str, structure: &str, (ns, bytes): (f6
         rays: rays.into(),
         query: if matches!(rays, "shadow" | "ambient") { Query::Occluded } else { Query::Closest },
         structure: structure.into(),
-        kernel: if is_foreign { "own" } else { "moller-trumbore" }.into(),
+        kernel: Intersector::from(if is_foreign { "own" } else { "moller-trumbore" }.to_owned()),
         kernel_reason: String::new(),
         threads: 1,
         ray_count: 100_000,
@@ -153,7 +153,7 @@ fn cell(scene: &str, objects: u64, rays: &str, structure: &str, (ns, bytes): (f6
             differences: if is_foreign { 11 } else { 0 },
             errors: is_foreign.then_some(errors),
         }),
-        error: None,
+        outcome: Outcome::Measured,
     };
     cell.summarise();
     cell

@@ -7,7 +7,7 @@ use super::scale::{short, trimmed};
 use super::style::Styles;
 use super::svg::escape;
 use super::table::{Value, figure, table, text};
-use harness::record::{Cell, Record};
+use harness::record::{Cell, RaysId, Record};
 use harness::units;
 use std::fmt::Write;
 
@@ -95,8 +95,8 @@ pub fn scene(record: &Record, id: &str, pictures: &[Picture], styles: &Styles, i
             html += &chart(&format!("{rays}: time per ray"), &svg, "");
         }
     }
-    for rays in record.ray_sets().into_iter().filter(|rays| GROWTH.contains(rays)) {
-        let of_rays: Vec<&Cell> = cells.iter().copied().filter(|c| c.rays == rays).collect();
+    for rays in GROWTH {
+        let of_rays: Vec<&Cell> = cells.iter().copied().filter(|c| c.ray_set() == Some(rays)).collect();
         let label = format!("Build and trace time over the number of {rays} rays on {id}");
         if let Some((svg, words)) = charts::growth(&of_rays, &label, styles) {
             html += &chart(&format!("{rays}: build against trace"), &svg, &escape(&words));
@@ -106,7 +106,7 @@ pub fn scene(record: &Record, id: &str, pictures: &[Picture], styles: &Styles, i
 }
 
 /// One image and one list of rays are enough to see what building costs.
-const GROWTH: [&str; 2] = ["perspective", "diffuse"];
+const GROWTH: [RaysId; 2] = [RaysId::Perspective, RaysId::Diffuse];
 
 /// ν_mem over N, for each scene that has it.
 pub fn memory_ratios(record: &Record) -> Option<String> {
@@ -202,7 +202,7 @@ pub fn all_cells(record: &Record, styles: &Styles) -> String {
             Value::text(&cell.scene),
             Value::text(&cell.rays),
             Value::structure(&cell.structure, &styles.class(&cell.structure)),
-            Value::text(&cell.kernel),
+            Value::text(cell.kernel.name()),
             Value::figure(Some(cell.threads as f64), count),
             Value::figure(timing.map(|t| t.median), units::time),
             Value::figure(timing.map(|t| t.mad), units::time),
@@ -215,7 +215,7 @@ pub fn all_cells(record: &Record, styles: &Styles) -> String {
             Value::figure(Some(cell.ray_count as f64), count),
             Value::figure(Some(cell.hits as f64), count),
             Value::figure(cell.check.as_ref().map(|c| c.differences as f64), count),
-            Value::text(cell.error.as_deref().unwrap_or(&cell.plan)),
+            Value::text(cell.outcome.reason().unwrap_or(&cell.plan)),
         ]
     };
     let rows: Vec<Vec<Value>> = record.cells.iter().map(row).collect();

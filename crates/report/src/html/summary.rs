@@ -3,7 +3,7 @@
 use super::aggregate::{Overall, bytes_per_object};
 use super::scale::trimmed;
 use super::svg::escape;
-use harness::record::{Cell, Record};
+use harness::record::{Cell, Intersector, Record};
 use harness::stats::median;
 use harness::units;
 
@@ -70,7 +70,7 @@ fn ours(record: &Record, overall: &[Overall], threads: usize) -> Vec<String> {
     let mut ratios: Vec<(f64, &Cell, &Cell)> = Vec::new();
     for cell in record.cells.iter().filter(|c| c.structure == OURS && c.threads == threads) {
         let Some(ns) = cell.ns() else { continue };
-        let same_work = |c: &&Cell| c.key() == cell.key() && c.structure.split(':').next() != Some(OURS);
+        let same_work = |c: &&Cell| c.key() == cell.key() && c.structure_id() != OURS;
         let others = record.cells.iter().filter(same_work).filter_map(|c| Some((c.ns()?, c)));
         if let Some((best, other)) = others.min_by(|a, b| a.0.total_cmp(&b.0)) {
             ratios.push((ns / best, cell, other));
@@ -144,8 +144,11 @@ fn least_memory(record: &Record, threads: usize) -> Option<String> {
 
 /// Whether the answers were right.
 fn checks(record: &Record) -> String {
-    let (own, foreign): (Vec<&Cell>, Vec<&Cell>) =
-        record.cells.iter().filter(|cell| cell.check.is_some()).partition(|cell| cell.kernel != "own");
+    let (own, foreign): (Vec<&Cell>, Vec<&Cell>) = record
+        .cells
+        .iter()
+        .filter(|cell| cell.check.is_some())
+        .partition(|cell| cell.kernel != Intersector::External);
     let rays =
         |cells: &[&Cell]| cells.iter().filter_map(|c| c.check.as_ref()).map(|c| c.rays_checked).sum::<u64>();
     let differences =
@@ -178,7 +181,7 @@ fn checks(record: &Record) -> String {
 
 /// What failed or was skipped.
 fn left_out(record: &Record) -> Option<String> {
-    let failed = record.cells.iter().filter(|cell| cell.error.is_some()).count();
+    let failed = record.cells.iter().filter(|cell| !cell.outcome.is_measured()).count();
     let skipped: Vec<String> =
         record.skipped.iter().map(|s| format!("{} ({})", escape(&s.id), escape(&s.reason))).collect();
     if failed == 0 && skipped.is_empty() {

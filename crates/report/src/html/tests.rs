@@ -1,7 +1,7 @@
 //! The page as a whole.
 
 use super::*;
-use harness::record::{Errors, MemoryRow};
+use harness::record::{Errors, MemoryRow, Outcome};
 use harness::testing;
 
 /// A record with something for every section.
@@ -51,7 +51,7 @@ fn names_from_outside_stay_text() {
     for cell in &mut record.cells {
         cell.scene = format!("{}{evil}", cell.scene);
         cell.structure = format!("{}{evil}", cell.structure);
-        cell.error = Some(evil.into());
+        cell.outcome = Outcome::Failed(evil.into());
         cell.plan = evil.into();
     }
     for scene in &mut record.scenes {

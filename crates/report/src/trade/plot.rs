@@ -2,7 +2,9 @@
 
 use crate::html::escape;
 use crate::palette;
+use harness::record::{Intersector, id_of};
 use harness::trade::{Row, Trade};
+use primitives::KernelId;
 use std::fmt::Write;
 
 const COLUMNS: usize = 3;
@@ -15,16 +17,16 @@ const EDGE: f64 = 10.0;
 /// Rows without an error are drawn here, below one in a million rays.
 const NONE: f64 = 0.3;
 
-/// Kernels by the shape of their points.
-const SHAPES: [(&str, &str); 8] = [
-    ("moller-trumbore", "M-4,0A4,4 0 1 0 4,0A4,4 0 1 0 -4,0Z"),
-    ("baldwin-weber", "M-3.5,-3.5H3.5V3.5H-3.5Z"),
-    ("watertight", "M0,-4.5L4.5,3.5H-4.5Z"),
-    ("double", "M0,-5L4.5,0L0,5L-4.5,0Z"),
-    ("exact", "M0,-6L1.6,-2L6,-1.6L2.6,1.2L3.8,5.4L0,3L-3.8,5.4L-2.6,1.2L-6,-1.6L-1.6,-2Z"),
-    ("quantised", "M-1.5,-5H1.5V-1.5H5V1.5H1.5V5H-1.5V1.5H-5V-1.5H-1.5Z"),
-    ("box", "M-5,-2.5H5V2.5H-5Z"),
-    ("own", "M-4,-4L0,-1.5L4,-4L1.5,0L4,4L0,1.5L-4,4L-1.5,0Z"),
+/// The shapes of points: one for each kernel in their order, the last for external intersectors.
+const SHAPES: [&str; KernelId::ALL.len() + 1] = [
+    "M-4,0A4,4 0 1 0 4,0A4,4 0 1 0 -4,0Z",
+    "M-3.5,-3.5H3.5V3.5H-3.5Z",
+    "M0,-4.5L4.5,3.5H-4.5Z",
+    "M0,-5L4.5,0L0,5L-4.5,0Z",
+    "M0,-6L1.6,-2L6,-1.6L2.6,1.2L3.8,5.4L0,3L-3.8,5.4L-2.6,1.2L-6,-1.6L-1.6,-2Z",
+    "M-1.5,-5H1.5V-1.5H5V1.5H1.5V5H-1.5V1.5H-5V-1.5H-1.5Z",
+    "M-5,-2.5H5V2.5H-5Z",
+    "M-4,-4L0,-1.5L4,-4L1.5,0L4,4L0,1.5L-4,4L-1.5,0Z",
 ];
 
 /// The plot as SVG: colours are structures, shapes are kernels, filled points form the Pareto front.
@@ -54,10 +56,14 @@ pub fn svg(trade: &Trade) -> String {
             escape(id)
         );
     }
-    for (i, (kernel, _)) in SHAPES.iter().enumerate() {
+    let kernels = KernelId::ALL.map(Intersector::BuiltIn).into_iter().chain([Intersector::External]);
+    for (i, kernel) in kernels.enumerate() {
         let (x, y) = (20.0 + 160.0 * (i % 6) as f64, LEGEND - 42.0 + 14.0 * (i / 6) as f64);
-        point(&mut out, (x, y - 3.0), kernel, "#333", false, "");
-        let name = if *kernel == "own" { "a foreign structure's own" } else { kernel };
+        point(&mut out, (x, y - 3.0), &kernel, "#333", false, "");
+        let name = match &kernel {
+            Intersector::External => "an external structure's own",
+            kernel => kernel.name(),
+        };
         let _ = writeln!(out, "<text x=\"{}\" y=\"{y}\">{name}</text>", x + 8.0);
     }
     let _ = writeln!(
@@ -75,12 +81,28 @@ pub fn svg(trade: &Trade) -> String {
 }
 
 fn family(row: &Row) -> &str {
-    row.structure.split(':').next().unwrap_or_default()
+    id_of(&row.structure)
+}
+
+/// The shape of a kernel's points.
+fn shape(kernel: &Intersector) -> &'static str {
+    let place = match kernel {
+        Intersector::BuiltIn(kernel) => KernelId::ALL.iter().position(|known| known == kernel),
+        Intersector::External | Intersector::Unknown(_) => None,
+    };
+    SHAPES[place.unwrap_or(SHAPES.len() - 1)]
 }
 
 /// A point with a title that shows under the pointer.
-fn point(out: &mut String, (x, y): (f64, f64), kernel: &str, colour: &str, filled: bool, title: &str) {
-    let shape = SHAPES.iter().find(|(name, _)| *name == kernel).unwrap_or(&SHAPES[0]).1;
+fn point(
+    out: &mut String,
+    (x, y): (f64, f64),
+    kernel: &Intersector,
+    colour: &str,
+    filled: bool,
+    title: &str,
+) {
+    let shape = shape(kernel);
     let fill = if filled { colour } else { "none" };
     // Writing to a string does not fail.
     let _ = writeln!(
@@ -148,7 +170,7 @@ fn panel(out: &mut String, (left, top): (f64, f64), scene: &str, rows: &[&Row]) 
 mod tests {
     use super::*;
     use harness::machine::Machine;
-    use harness::record::{SceneEntry, Suite};
+    use harness::record::{Outcome, SceneEntry, Suite};
     use harness::trade::Accuracy;
 
     fn trade(scenes: usize, structures: usize) -> Trade {
@@ -166,13 +188,13 @@ mod tests {
                 trade.rows.push(Row {
                     scene: id.clone(),
                     structure: format!("structure-{structure}:kernel=exact"),
-                    kernel: SHAPES[structure % SHAPES.len()].0.to_owned(),
+                    kernel: Intersector::BuiltIn(KernelId::ALL[structure % KernelId::ALL.len()]),
                     kernel_reason: String::new(),
                     ns_per_ray: Some(3.0 * 7f64.powi(structure as i32 % 6)),
                     bytes: None,
                     accuracy: Some(Accuracy { rays: 1000, missed: structure as u64, ..Accuracy::default() }),
                     front: structure == 0,
-                    error: None,
+                    outcome: Outcome::Measured,
                 });
             }
             trade.scenes.push(SceneEntry {

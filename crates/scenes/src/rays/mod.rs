@@ -1,7 +1,7 @@
 //! Ray sets: what is asked of a scene's structure.
 //!
 //! A set follows from the scene, its name, its size and a seed. `shadow`, `ambient`,
-//! `diffuse` and two of the torture sets start from hits: they also need something that
+//! `diffuse` and two of the stress sets start from hits: they also need something that
 //! answers closest-hit rays, any [`Accel`] built with [`Need::GENERAL`](accel::Need::GENERAL).
 //!
 //! ```
@@ -24,11 +24,11 @@ mod lines;
 mod raster;
 mod spawn;
 mod spec;
+mod stress;
 #[cfg(test)]
 mod tests;
-mod torture;
 
-pub use id::{Query, RaysError, RaysId};
+pub use id::{Feature, Kind, Query, RaysError, RaysId};
 pub use raster::{parallel, perspective};
 pub use spawn::offset as spawn_offset;
 pub use spec::RaysSpec;
@@ -54,7 +54,7 @@ pub fn generate(scene: &Scene, spec: &RaysSpec, tracer: &dyn Accel) -> Result<Ra
         RaysId::Shadow | RaysId::Ambient | RaysId::Diffuse => spawn::from_hits(scene, spec, tracer)?,
         RaysId::Random => lines::random(scene, spec),
         RaysId::Axis => lines::axis(scene, spec),
-        _ => torture::rays(scene, spec, tracer)?,
+        _ => stress::rays(scene, spec, tracer)?,
     };
     Ok(RaySet::List(list))
 }

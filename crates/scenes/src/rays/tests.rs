@@ -62,8 +62,8 @@ fn every_set_is_sound_and_reproducible() {
             for i in 0..made.len() {
                 made.ray(i).validate().unwrap_or_else(|error| panic!("{id} {rays} {i}: {error}"));
             }
-            assert_eq!(matches!(made, RaySet::Raster(_)), rays.is_raster());
-            if rays.query() == Query::Occlusion {
+            assert_eq!(matches!(made, RaySet::Raster(_)), rays.is_image());
+            if rays.query() == Query::Occluded {
                 assert!((0..made.len()).all(|i| made.ray(i).t_max.is_finite()));
             }
         }

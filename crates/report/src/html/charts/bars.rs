@@ -56,7 +56,7 @@ pub fn bars(cells: &[&Cell], label: &str, styles: &Styles) -> Option<String> {
     }
     for (i, cell) in failed.iter().enumerate() {
         let y = (timed.len() + i) as f64 * ROW + 3.0;
-        let reason = cell.error.as_deref().unwrap_or("no sample");
+        let reason = cell.outcome.reason().unwrap_or("no sample");
         svg.tip(&format!("{}: {reason}", cell.structure), |svg| {
             svg.rect((0.0, y - 3.0), (WIDTH, ROW), "hit");
             svg.text((names - 6.0, y + 11.0), Anchor::End, "label", &cell.structure);
