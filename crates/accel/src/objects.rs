@@ -12,7 +12,7 @@ use crate::{Aabb, Nearest, Ray, Surface};
 /// the range of that meeting, give or take [`T_SLACK`]`·|t|`. The boxes are padded so that no hit worth having is
 /// refused. A structure that never loses an object whose box a ray meets therefore
 /// equals brute force bit for bit.
-pub trait Objects: Copy + Send + Sync {
+pub trait Objects: Send + Sync {
     /// How many there are, below `u32::MAX`.
     fn len(&self) -> usize;
 

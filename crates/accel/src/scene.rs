@@ -26,6 +26,38 @@ impl Mesh {
     /// If there is no such triangle, or it names no position.
     #[inline(always)]
     pub fn corners(&self, index: usize) -> Corners {
+        MeshRef::from(self).corners(index)
+    }
+
+    /// The box of all triangles; positions that no triangle uses don't count.
+    pub fn bounds(&self) -> Aabb {
+        MeshRef::from(self).bounds()
+    }
+}
+
+/// Indexed triangles in buffers that belong to somebody else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshRef<'s> {
+    /// Corner positions, finite.
+    pub positions: &'s [Vec3],
+    /// Three indices into `positions` for each triangle.
+    pub triangles: &'s [[u32; 3]],
+}
+
+impl<'s> From<&'s Mesh> for MeshRef<'s> {
+    #[inline(always)]
+    fn from(mesh: &'s Mesh) -> Self {
+        Self { positions: &mesh.positions, triangles: &mesh.triangles }
+    }
+}
+
+impl MeshRef<'_> {
+    /// The corners of triangle `index`.
+    ///
+    /// # Panics
+    /// If there is no such triangle, or it names no position.
+    #[inline(always)]
+    pub fn corners(&self, index: usize) -> Corners {
         self.triangles[index].map(|corner| self.positions[corner as usize])
     }
 

@@ -114,7 +114,11 @@ pub trait Builder: Send + Sync {
 
 /// Why a structure was not built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BuildError {
+    /// The geometry can't be traced.
+    #[error(transparent)]
+    Input(#[from] crate::InputError),
     /// The structure has no way to serve this.
     #[error("{structure} does not serve {what}")]
     Unsupported {

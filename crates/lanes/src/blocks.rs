@@ -11,7 +11,7 @@ pub const BLOCK: usize = 64;
 pub const EMPTY_SLOT: u32 = u32::MAX;
 
 /// Objects that can be reordered and packed.
-pub trait PackedObjects: Objects {
+pub trait PackedObjects: Objects + Copy {
     /// The objects reordered and packed by 64.
     type Blocks: Blocks;
 

@@ -3,11 +3,13 @@
 #![forbid(unsafe_code)]
 
 mod boxes;
+mod guarded;
 pub mod kernel;
 mod objects;
 mod triangles;
 
 pub use boxes::Boxes;
+pub use guarded::Guarded;
 pub use kernel::{Kernel, KernelId, WithKernel};
-pub use objects::{WithObjects, with_objects};
+pub use objects::{WithObjects, with_objects, with_triangles};
 pub use triangles::{TriangleBlocks, Triangles};

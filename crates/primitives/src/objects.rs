@@ -1,7 +1,7 @@
 //! The objects of a scene as a type.
 
 use crate::{Boxes, Kernel, KernelId, Triangles, WithKernel};
-use accel::{Geometry, Mesh, Scene};
+use accel::{Geometry, MeshRef, Scene};
 use lanes::PackedObjects;
 
 /// Code that is generic over the objects of a scene.
@@ -14,15 +14,20 @@ pub trait WithObjects<'s> {
 
 /// Calls `with` with the objects of a scene, triangles being tested by `kernel`.
 pub fn with_objects<'s, W: WithObjects<'s>>(scene: &'s Scene, kernel: KernelId, with: W) -> W::Out {
-    struct OfMesh<'s, W>(&'s Mesh, W);
+    match &scene.geometry {
+        Geometry::Triangles(mesh) => with_triangles(mesh.into(), kernel, with),
+        Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
+    }
+}
+
+/// Calls `with` with the triangles of a mesh, tested by `kernel`.
+pub fn with_triangles<'s, W: WithObjects<'s>>(mesh: MeshRef<'s>, kernel: KernelId, with: W) -> W::Out {
+    struct OfMesh<'s, W>(MeshRef<'s>, W);
     impl<'s, W: WithObjects<'s>> WithKernel for OfMesh<'s, W> {
         type Out = W::Out;
         fn kernel<K: Kernel>(self) -> W::Out {
             self.1.objects(Triangles::<K>::new(self.0))
         }
     }
-    match &scene.geometry {
-        Geometry::Triangles(mesh) => kernel.with(OfMesh(mesh, with)),
-        Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
-    }
+    kernel.with(OfMesh(mesh, with))
 }

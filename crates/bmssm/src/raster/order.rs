@@ -27,7 +27,7 @@ const LANES: usize = 8;
 const CHUNK: usize = 1 << 14;
 
 /// The objects that both a row plane and a column plane touch.
-pub(super) fn shown<O: Objects>(objects: O, raster: &Raster, simd: Level) -> Vec<Shown> {
+pub(super) fn shown<O: Objects + Copy>(objects: O, raster: &Raster, simd: Level) -> Vec<Shown> {
     let space = ImageSpace::new(raster);
     let of = |first: usize| simd.run(Projected { objects, space: &space, first });
     if objects.len() <= CHUNK {

@@ -15,7 +15,7 @@ use self::lattice::{Lattice, ShortRows};
 use crate::Kernel;
 use crate::kernel::load_corners;
 use accel::Objects;
-use accel::{Aabb, Common, Corners, Mesh, Nearest, Ray, Surface};
+use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
 use lanes::packet::{NearestPacket, Packet, Vec3Lanes};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 use lanes::{ROW, Row, Simd};
@@ -25,7 +25,7 @@ use std::marker::PhantomData;
 /// The triangles of a mesh, tested by kernel `K`.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangles<'s, K> {
-    mesh: &'s Mesh,
+    mesh: MeshRef<'s>,
     frame: Frame,
     /// For kernels that are [`Kernel::QUANTISED`].
     lattice: Lattice,
@@ -50,7 +50,8 @@ pub struct TrianglePacket<S: Simd, P> {
 
 impl<'s, K: Kernel> Triangles<'s, K> {
     /// The objects of a scene of triangles.
-    pub fn new(mesh: &'s Mesh) -> Self {
+    pub fn new(mesh: impl Into<MeshRef<'s>>) -> Self {
+        let mesh = mesh.into();
         const { assert!(!K::QUANTISED || (K::ROWS == CORNER_ROWS && !K::POSTPONES)) };
         let mut bounds = mesh.bounds();
         let lattice = Lattice::over(&bounds);

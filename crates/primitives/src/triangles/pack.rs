@@ -4,7 +4,7 @@ use super::ids::Ids;
 use super::lattice::ShortRows;
 use super::{CORNER_ROWS, Kernel, TriangleBlocks, Triangles};
 use accel::parallel::prelude::*;
-use accel::{Mesh, filled};
+use accel::{MeshRef, filled};
 use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, prefetch};
 
 /// Groups by which memory is asked for before it is needed; twice as many for what says where.
@@ -49,7 +49,7 @@ fn taken(order: &[u32], group: usize) -> impl Iterator<Item = (usize, u32)> {
 }
 
 /// Triangles lie anywhere in memory, their corners anywhere else: both are asked for some groups ahead.
-fn ask_ahead(mesh: &Mesh, order: &[u32], group: usize) {
+fn ask_ahead(mesh: MeshRef<'_>, order: &[u32], group: usize) {
     for id in slots(order, group + 2 * AHEAD) {
         mesh.triangles.get(id as usize).map(prefetch);
     }
