@@ -2,9 +2,10 @@
 //!
 //! The bounds are those of [`super::reject`] with ε = 2^-53; products of three `f32` neither under- nor overflow.
 
-use super::by_integers;
+use super::quotient::Quotient;
 use super::signs::{Place, meets_corner, place};
 use crate::kernel::wide::{Pairs, Products};
+use accel::{Corners, Ray};
 use lanes::packet::Lanes;
 use lanes::{ROW, Simd};
 
@@ -75,6 +76,8 @@ impl Decisions {
         let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
         // At an end of the range, the rounded t doesn't tell on which side the true one lies.
         let clear = (low == high) & (low != ray.t_min) & (low != ray.t_max);
+        // Rounding keeps order: t is out of the range if what it is rounded to at least or at most is.
+        let missed = missed | (firm & ((high < ray.t_min) | (ray.t_max < low)));
         let unsure = if firm & clear { 3.0 } else { 2.0 };
         self.state[lane] = if inside & firm & clear { 1.0 } else { unsure };
         self.state[lane] = if missed { 0.0 } else { self.state[lane] };
@@ -83,7 +86,8 @@ impl Decisions {
         self.v[lane] = (v * reciprocal) as f32;
     }
 
-    /// Decides the lanes `unsure` by exact signs and, where t is not known, by integers, and tells which are hit.
+    /// Decides the lanes `unsure` by exact signs and, where t is not known, by its exact quotient, and tells which
+    /// are hit.
     #[cold]
     fn settle(&mut self, pairs: &impl Pairs, mut unsure: u32) -> u32 {
         let mut hits = 0;
@@ -91,16 +95,19 @@ impl Decisions {
             let lane = unsure.trailing_zeros() as usize;
             unsure &= unsure - 1;
             let (ray, corners) = (pairs.ray(lane), pairs.corners(lane));
+            if !usable(&ray, &corners) {
+                continue;
+            }
             let needs_only_inside = self.state[lane] == 3.0;
             if needs_only_inside && meets_corner(&ray, &corners) {
                 hits |= 1 << lane;
                 continue;
             }
             match place(&ray, &corners) {
-                Some(Place::Outside) => {}
-                Some(Place::Inside(_)) if needs_only_inside => hits |= 1 << lane,
-                _ => {
-                    if let Some(found) = by_integers(&ray, &corners) {
+                Place::Outside => {}
+                Place::Inside(_) if needs_only_inside => hits |= 1 << lane,
+                Place::Inside(_) => {
+                    if let Some(found) = in_range(&ray, &corners) {
                         hits |= 1 << lane;
                         (self.t[lane], self.u[lane], self.v[lane]) = found.into();
                     }
@@ -109,6 +116,23 @@ impl Decisions {
         }
         hits
     }
+}
+
+/// Whether every number is one.
+fn usable(ray: &Ray, corners: &Corners) -> bool {
+    ray.origin.is_finite()
+        && ray.direction.is_finite()
+        && corners.iter().all(|corner| corner.is_finite())
+        && !ray.t_min.is_nan()
+        && !ray.t_max.is_nan()
+}
+
+/// t, u and v where the ray meets the triangle's plane, if that is in its range.
+#[cold]
+fn in_range(ray: &Ray, corners: &Corners) -> Option<[f32; 3]> {
+    let at = Quotient::of(ray, corners)?;
+    let within = at.compare(ray.t_min).is_ge() && at.compare(ray.t_max).is_le();
+    within.then(|| at.rounded())
 }
 
 // As comparisons, for `f64::min` and `max` treat NaN at the cost of more instructions.

@@ -1,6 +1,6 @@
 //! A test whose every decision is the true one, at the usual cost of one in `f32`.
 //!
-//! Three stages, each leaving to the next what it can't tell for certain:
+//! Stages, each leaving to the next what it can't tell for certain:
 //!
 //! 1. [`reject`]: Möller and Trumbore's products in `f32` with an error bound, in lanes. Nearly all
 //!    triangles tested are missed, and nearly all misses end here. Hits that are certain, with bounds of t that tell which
@@ -8,15 +8,22 @@
 //! 2. [`decide`]: the same products in `f64` with an error bound. It settles hits, and rounds t correctly where
 //!    its bound leaves one `f32` only.
 //! 3. [`signs`]: rays through an edge or a corner, by signs without error.
-//! 4. [`oracle::intersect`]: integers. Ranges that begin or end at the hit, and t's halfway between two `f32`, come here.
+//! 4. [`quotient`]: t itself without error. Ranges that begin or end at the hit, and t's halfway between two `f32`,
+//!    come here.
+//!
+//! What counts as a hit: the triangle is closed, and hit from either side; so is the range of t. A ray in the
+//! triangle's plane hits nothing, and nothing hits a triangle without area or one whose numbers aren't finite.
 //!
 //! t is the true one correctly rounded. Rounding keeps order, so of two hits the one reported at the lower t is the
-//! nearer one; hits reported at the same t are put in order by integers unless they are of one edge or corner ([`Kernel::order`]).
+//! nearer one; hits reported at the same t are put in order by exact quotients unless they are of one edge or corner
+//! ([`Kernel::order`]).
 //!
 //! The idea of stages is that of J. R. Shewchuk, *Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
 
 mod decide;
+mod expansion;
+mod quotient;
 mod reject;
 mod signs;
 
@@ -28,10 +35,11 @@ use super::{Corners, Kernel, KernelId, load_corners, pack_corners, splat_corners
 use accel::{Common, Ray};
 use lanes::packet::{Bounds, Lanes, Packet};
 use lanes::{Row, Scalar, Simd};
+use quotient::Quotient;
 use signs::{Place, meet_at_corner, place, same_point};
 use std::cmp::Ordering;
 
-/// The exact test: see [`oracle`] for what counts as a hit.
+/// The exact test.
 /// u and v are right to about one unit in the last place of 1.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
@@ -181,14 +189,16 @@ impl Kernel for Exact {
         if meet_at_corner(ray, a, b) {
             return Ordering::Equal;
         }
-        if let (Some(Place::Inside(on_a)), Some(Place::Inside(on_b))) = (place(ray, a), place(ray, b))
+        if let (Place::Inside(on_a), Place::Inside(on_b)) = (place(ray, a), place(ray, b))
             && same_point((a, on_a), (b, on_b))
         {
             return Ordering::Equal;
         }
-        let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
-        let t = |corners| oracle::intersect(&line, corners).map(|hit| hit.t);
-        t(a).cmp(&t(b))
+        match (Quotient::of(ray, a), Quotient::of(ray, b)) {
+            (Some(a), Some(b)) => a.cmp(&b),
+            // Neither is a hit.
+            _ => Ordering::Equal,
+        }
     }
 }
 
@@ -203,11 +213,4 @@ fn nothing<S: Simd>(s: S) -> Lanes<S> {
 fn in_range<S: Simd>(s: S, lanes: Lanes<S>, ray: &Packet<S>, t_max: S::F) -> Lanes<S> {
     let within = s.and(s.le(ray.t_min, lanes.t), s.le(lanes.t, t_max));
     Lanes { hit: s.and(lanes.hit, within), ..lanes }
-}
-
-/// What integers find, rounded.
-#[cold]
-fn by_integers(ray: &Ray, corners: &Corners) -> Option<[f32; 3]> {
-    let hit = oracle::intersect(ray, corners)?;
-    Some([hit.t.to_f32(), hit.u.to_f32(), hit.v.to_f32()])
 }

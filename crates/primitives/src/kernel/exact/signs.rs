@@ -1,16 +1,18 @@
-//! Signs of edge functions without error, in `f64`.
+//! Signs of edge functions without error: in `f64` where its error bound allows, by [`Expansion`]s elsewhere.
 //!
-//! A sum of products of `f64` values is kept as an expansion: a list of `f64` values that don't overlap and whose sum
-//! is exact (J. R. Shewchuk, *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates*,
-//! Discrete & Computational Geometry 18(3), 1997, §2). Coordinates being `f32`, every product of three differences is a multiple of
-//! 2^-447 below 2^385, so nothing under- or overflows.
+//! Crates of geometric predicates take differences of points only; a ray's direction is none.
 
+use super::expansion::{Expansion, sign, two_product, two_sum};
+use super::quotient::triple;
 use accel::{Corners, Ray, Vec3};
 use std::cmp::Ordering;
 
 /// Differences and partial products of one edge function: 3 minors of 2 products, each in 2 parts, times a
 /// component in 2 parts.
 const TERMS: usize = 24;
+
+/// Those of an edge function of coordinates themselves: three triple products of six products in two parts each.
+const FAR_TERMS: usize = 36;
 
 /// Above any error of a computed edge function, relative to the sum of its absolute products: seven roundings.
 const BOUND: f64 = 16.0 * f64::EPSILON / 2.0;
@@ -24,21 +26,22 @@ pub(super) enum Place {
     Inside([bool; 3]),
 }
 
-/// The place of the ray's line, or `None` where a difference of coordinates needs more digits than `f64` has.
-pub(super) fn place(ray: &Ray, corners: &Corners) -> Option<Place> {
-    let mut relative = [[0.0; 3]; 3];
-    for (to, corner) in relative.iter_mut().zip(corners) {
-        *to = difference(*corner, ray.origin)?;
-    }
-    let direction = ray.direction.to_array().map(f64::from);
-    let [a, b, c] = relative;
-    let signs = [(c, b), (a, c), (b, a)].map(|(p, q)| edge_sign(direction, p, q));
+/// The place of the ray's line.
+pub(super) fn place(ray: &Ray, corners: &Corners) -> Place {
+    let [a, b, c] = *corners;
+    let signs = match corners.map(|corner| difference(corner, ray.origin)) {
+        [Some(a), Some(b), Some(c)] => {
+            let direction = ray.direction.to_array().map(f64::from);
+            [(c, b), (a, c), (b, a)].map(|(p, q)| edge_sign(direction, p, q))
+        }
+        _ => [(c, b), (a, c), (b, a)].map(|(p, q)| far_edge_sign(ray, p, q)),
+    };
     let (less, greater) = (signs.contains(&Ordering::Less), signs.contains(&Ordering::Greater));
     if less == greater {
         // Both signs, or all zero: the line lies in the plane.
-        return Some(Place::Outside);
+        return Place::Outside;
     }
-    Some(Place::Inside(signs.map(Ordering::is_eq)))
+    Place::Inside(signs.map(Ordering::is_eq))
 }
 
 /// Whether hits of the same line at these places of two triangles are certainly one point, because they are on the same
@@ -90,7 +93,7 @@ fn difference(p: Vec3, q: Vec3) -> Option<[f64; 3]> {
 }
 
 /// The axes of the three minors of a triple product, each after that of its factor.
-const MINORS: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
+pub(super) const MINORS: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
 
 /// The minor whose factor is the only one that isn't zero: rays along an axis meet corners and edges most often.
 fn only_minor(d: [f64; 3]) -> Option<[usize; 3]> {
@@ -114,89 +117,29 @@ fn edge_sign(d: [f64; 3], p: [f64; 3], q: [f64; 3]) -> Ordering {
         let order = sign(x.0 - y.0).then(sign(x.1 - y.1));
         return if d[i] < 0.0 { order.reverse() } else { order };
     }
-    let mut sum = Expansion { parts: [0.0; TERMS], len: 0 };
+    let mut sum = Expansion::<TERMS>::ZERO;
     for [i, j, k] in MINORS {
         for (x, y, factor) in [(p[j], q[k], d[i]), (p[k], q[j], -d[i])] {
             if x == 0.0 || y == 0.0 || factor == 0.0 {
                 continue;
             }
             let (high, low) = two_product(x, y);
-            for part in [high, low] {
-                let (high, low) = two_product(part, factor);
-                sum.add(low);
-                sum.add(high);
-            }
+            sum.add_product(high, factor);
+            sum.add_product(low, factor);
         }
     }
     sum.sign()
 }
 
-fn sign(value: f64) -> Ordering {
-    if value > 0.0 {
-        Ordering::Greater
-    } else if value < 0.0 {
-        Ordering::Less
-    } else {
-        Ordering::Equal
-    }
-}
-
-/// An exact sum, its parts by ascending size and none zero.
-struct Expansion {
-    parts: [f64; TERMS],
-    len: usize,
-}
-
-impl Expansion {
-    /// Adds a number, at most [`TERMS`] of them (Shewchuk, Grow-Expansion with zero elimination).
-    fn add(&mut self, term: f64) {
-        if term == 0.0 {
-            return;
-        }
-        let (mut rest, mut len) = (term, 0);
-        for i in 0..self.len {
-            let (high, low) = two_sum(rest, self.parts[i]);
-            if low != 0.0 {
-                self.parts[len] = low;
-                len += 1;
-            }
-            rest = high;
-        }
-        if rest != 0.0 {
-            self.parts[len] = rest;
-            len += 1;
-        }
-        self.len = len;
-    }
-
-    /// The largest part outweighs the others.
-    fn sign(&self) -> Ordering {
-        if self.len == 0 { Ordering::Equal } else { sign(self.parts[self.len - 1]) }
-    }
-}
-
-/// a + b and its rounding error (Knuth).
-#[inline]
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let b_part = sum - a;
-    (sum, (a - (sum - b_part)) + (b - b_part))
-}
-
-/// a·b and its rounding error (Dekker).
-#[inline]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
-    (product, a2 * b2 - (((product - a1 * b1) - a2 * b1) - a1 * b2))
-}
-
-/// A number as a sum of two of 26 digits each (Veltkamp).
-#[inline]
-fn halves(a: f64) -> (f64, f64) {
-    let c = 134_217_729.0 * a;
-    let high = c - (c - a);
-    (high, a - high)
+/// The sign of d·((p−o)×(q−o)) where a difference needs more digits than `f64` has.
+#[cold]
+fn far_edge_sign(ray: &Ray, p: Vec3, q: Vec3) -> Ordering {
+    let (o, d) = (ray.origin, ray.direction);
+    let mut sum = Expansion::<FAR_TERMS>::ZERO;
+    triple(&mut sum, d, p, q);
+    triple(&mut sum, d, p, -o);
+    triple(&mut sum, d, -o, q);
+    sum.sign()
 }
 
 #[cfg(test)]
@@ -227,14 +170,13 @@ mod tests {
                 let weights = [hit.u.to_f64(), hit.v.to_f64()];
                 prop_assert!([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].contains(&weights));
             }
-            if let Some(place) = place(&ray, &corners) {
-                prop_assert!(!(meets_corner(&ray, &corners) && place == Place::Outside && exact.is_some()));
-                prop_assert_eq!(place != Place::Outside, exact.is_some());
-                if let (Place::Inside(on), Some(hit)) = (place, exact) {
-                    // u is the weight of the second corner, v of the third.
-                    prop_assert_eq!(on[1], hit.u.to_f64() == 0.0);
-                    prop_assert_eq!(on[2], hit.v.to_f64() == 0.0);
-                }
+            let place = place(&ray, &corners);
+            prop_assert!(!(meets_corner(&ray, &corners) && place == Place::Outside && exact.is_some()));
+            prop_assert_eq!(place != Place::Outside, exact.is_some());
+            if let (Place::Inside(on), Some(hit)) = (place, exact) {
+                // u is the weight of the second corner, v of the third.
+                prop_assert_eq!(on[1], hit.u.to_f64() == 0.0);
+                prop_assert_eq!(on[2], hit.v.to_f64() == 0.0);
             }
         }
 
@@ -248,7 +190,7 @@ mod tests {
             if let (true, Some(x), Some(y)) = (meet_at_corner(&ray, &first, &second), t(&first), t(&second)) {
                 prop_assert_eq!(x, y);
             }
-            if let (Some(Place::Inside(x)), Some(Place::Inside(y))) = (place(&ray, &first), place(&ray, &second))
+            if let (Place::Inside(x), Place::Inside(y)) = (place(&ray, &first), place(&ray, &second))
                 && same_point((&first, x), (&second, y))
             {
                 prop_assert_eq!(t(&first), t(&second));
@@ -266,17 +208,12 @@ mod tests {
                 |p: Vec3| Ray { t_min: f32::NEG_INFINITY, ..Ray::new(p * unit, Vec3::new(big, 3.0, 7.0)) };
             let places =
                 [Vec3::new(big - 1.0, big - 2.0, big - 1.0), Vec3::new(big, big - 1.0, big)].map(|p| {
-                    let found = place(&through(p), &corners).expect("few digits");
+                    let found = place(&through(p), &corners);
                     assert_eq!(found != Place::Outside, intersect(&through(p), &corners).is_some());
                     found
                 });
             assert!(matches!(places[1], Place::Inside(on) if on.contains(&true)), "{places:?}");
         }
-        let mut sum = Expansion { parts: [0.0; TERMS], len: 0 };
-        [1e30, -1.0, 1e-30, -1e30, 1.0].into_iter().for_each(|term| sum.add(term));
-        assert_eq!((sum.sign(), sum.len), (Ordering::Greater, 1));
-        sum.add(-1e-30);
-        assert_eq!(sum.sign(), Ordering::Equal);
     }
 
     #[test]
@@ -284,7 +221,7 @@ mod tests {
         let [a, b, c, d] = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, -1.0, 2.0)];
         let at = |point: Vec3| Ray::new(point - Vec3::Z, Vec3::Z);
         let same = |ray: &Ray, x: &Corners, y: &Corners| match (place(ray, x), place(ray, y)) {
-            (Some(Place::Inside(p)), Some(Place::Inside(q))) => same_point((x, p), (y, q)),
+            (Place::Inside(p), Place::Inside(q)) => same_point((x, p), (y, q)),
             places => panic!("{places:?}"),
         };
         let (first, second) = ([a, b, c], [b, d, a]);
