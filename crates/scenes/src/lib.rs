@@ -25,6 +25,7 @@ mod random;
 pub mod rays;
 mod reader;
 mod resolve;
+mod rotation;
 mod solid;
 mod spec;
 mod split;

@@ -6,9 +6,12 @@
 
 mod boxes;
 mod bumps;
+mod clutter;
 mod degenerate;
+mod foliage;
 mod spd;
 mod stadium;
+mod strands;
 mod triangles;
 
 pub use boxes::PIXELS;
@@ -77,6 +80,21 @@ pub enum Generator {
         cells: u32,
         /// Width of the hall; the teapot is 6.5 wide.
         hall: f64,
+    },
+    /// A tree in leaf.
+    Foliage {
+        /// Number of triangles; odd ones are made even.
+        objects: u32,
+    },
+    /// A ball of hair.
+    Strands {
+        /// Number of triangles, rounded to a multiple of 90.
+        objects: u32,
+    },
+    /// Things of very different sizes on a floor.
+    Clutter {
+        /// Number of triangles, of which up to seven may be left out.
+        objects: u32,
     },
     /// Equal, flat or zero-area triangles.
     Degenerate {
@@ -182,6 +200,9 @@ impl Generator {
             Self::Bumps { objects, height } => bumps::bumps(objects, height),
             Self::Ball { objects, radius, center } => bumps::ball(objects, radius, DVec3::from_array(center)),
             Self::Stadium { cells, hall } => stadium::stadium(cells, hall),
+            Self::Foliage { objects } => foliage::foliage(objects, seed),
+            Self::Strands { objects } => strands::strands(objects, seed),
+            Self::Clutter { objects } => clutter::clutter(objects, seed),
             Self::Degenerate { shape, objects } => degenerate::degenerate(shape, objects, seed),
             Self::Spd { database, size_factor, segments } => {
                 solid::tessellate(&database.solids(size_factor, seed), segments)
@@ -205,7 +226,11 @@ impl Generator {
             Self::Boxes { objects, .. } | Self::Triangles { objects, .. } | Self::Needles { objects, .. } => {
                 u64::from(objects)
             }
-            Self::Bumps { objects, .. } | Self::Ball { objects, .. } => u64::from(objects),
+            Self::Bumps { objects, .. }
+            | Self::Ball { objects, .. }
+            | Self::Foliage { objects }
+            | Self::Strands { objects }
+            | Self::Clutter { objects } => u64::from(objects),
             Self::Degenerate { objects, .. } => 3 * u64::from(objects),
             Self::StackedBoxes { side } => u64::from(side).saturating_pow(3),
             Self::Stadium { cells: n, .. } | Self::Teapot { cells: n, .. } => cells(n).saturating_mul(66),
@@ -239,17 +264,27 @@ impl Generator {
             Self::Stadium { hall, .. } => positive("hall", hall)?,
             _ => {}
         }
-        let least_one = match *self {
+        let least = match *self {
+            Self::Foliage { .. } => foliage::LEAST,
+            Self::Strands { .. } => strands::STRAND,
+            Self::Clutter { .. } => clutter::LEAST,
+            _ => 1,
+        };
+        let size = match *self {
             Self::StackedBoxes { side: n }
             | Self::Stadium { cells: n, .. }
             | Self::Teapot { cells: n, .. }
             | Self::Sombrero { size_factor: n }
             | Self::Spd { size_factor: n, .. } => n,
-            Self::Bumps { objects, .. } | Self::Ball { objects, .. } => objects,
+            Self::Bumps { objects, .. }
+            | Self::Ball { objects, .. }
+            | Self::Foliage { objects }
+            | Self::Strands { objects }
+            | Self::Clutter { objects } => objects,
             _ => 1,
         };
-        if least_one == 0 {
-            return Err("the size must be at least 1, not 0".into());
+        if size < least {
+            return Err(format!("the size must be at least {least}, not {size}"));
         }
         let objects = self.objects_bound();
         if objects > MAX_OBJECTS {
@@ -295,6 +330,9 @@ mod tests {
             Generator::Spd { database: Database::Balls, size_factor: u32::MAX, segments: 8 },
             Generator::Spd { database: Database::Tetra, size_factor: 0, segments: 8 },
             Generator::Sombrero { size_factor: 0 },
+            Generator::Foliage { objects: 13 },
+            Generator::Strands { objects: 89 },
+            Generator::Clutter { objects: u32::MAX },
             Generator::Bumps { objects: 100, height: f64::NAN },
             Generator::Stadium { cells: 4, hall: -1.0 },
         ] {

@@ -1,4 +1,4 @@
-use super::rotation::{about, from_z_to};
+use crate::rotation::{about, from_z_to};
 use crate::solid::Solid;
 use glam::{DMat3, DVec3};
 

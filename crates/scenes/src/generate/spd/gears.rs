@@ -1,4 +1,4 @@
-use super::rotation::about;
+use crate::rotation::about;
 use crate::solid::Solid;
 use glam::DVec3;
 

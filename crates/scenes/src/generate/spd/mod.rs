@@ -11,7 +11,6 @@ mod jacks;
 mod lattice;
 mod mount;
 mod rings;
-mod rotation;
 mod shells;
 mod sombrero;
 mod teapot;

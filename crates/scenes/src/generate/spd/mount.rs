@@ -1,5 +1,5 @@
-use super::rotation::about;
 use crate::random::mix;
+use crate::rotation::about;
 use crate::solid::Solid;
 use glam::DVec3;
 use std::f64::consts::TAU;
