@@ -76,7 +76,7 @@ pub enum SceneError {
         vertices: u64,
     },
     /// A mesh without a face.
-    #[error("{}: no faces in {lines} lines{}", path.display(), if *.vertices == 0 { ", nor vertices: is this a mesh?" } else { "" })]
+    #[error("{}: no faces in {lines} lines{}", path.display(), beside(*.vertices, *.skipped))]
     NoFaces {
         /// The file.
         path: PathBuf,
@@ -84,6 +84,24 @@ pub enum SceneError {
         lines: u64,
         /// Vertices seen.
         vertices: u64,
+        /// Faces of fewer than three corners.
+        skipped: u64,
+    },
+    /// A file that the reader refuses for a reason without a place.
+    #[error("{}: {reason}", path.display())]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Coordinates that single precision can hold but not reckon with.
+    #[error("{}: {reason}", path.display())]
+    OutOfScale {
+        /// The file, or the scene's id.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
     },
     /// More vertices or triangles than 32-bit numbers name.
     #[error("{}: more than {most} {what}", path.display())]
@@ -110,6 +128,15 @@ impl SceneError {
     /// Whether the scene is merely not on this machine, so that a run goes on without it.
     pub fn is_unavailable(&self) -> bool {
         matches!(self, Self::Unavailable { .. })
+    }
+}
+
+/// What there is in place of faces.
+fn beside(vertices: u64, skipped: u64) -> String {
+    match (vertices, skipped) {
+        (_, 1..) => format!(" but {skipped} of fewer than three corners"),
+        (0, 0) => ", nor vertices: is this a mesh?".to_owned(),
+        _ => String::new(),
     }
 }
 

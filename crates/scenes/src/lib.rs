@@ -39,7 +39,7 @@ pub use error::SceneError;
 pub use export::{export_obj, write_obj};
 pub use modifier::{Modifiers, Transform};
 pub use random::Random;
-pub use reader::{file_sha256, mesh as load_mesh};
+pub use reader::{Polygons, file_sha256, mesh as load_mesh};
 pub use resolve::{Loaded, load, load_full};
 pub use spec::{SceneSpec, Source};
 pub use split::{Split, split};

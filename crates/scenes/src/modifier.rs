@@ -22,7 +22,7 @@ impl Transform {
     /// # Errors
     /// In words, a number out of range.
     pub fn validate(&self) -> Result<(), String> {
-        if self.scale_exponent.abs() > 200 {
+        if self.scale_exponent.unsigned_abs() > 200 {
             return Err(format!("the scale's exponent must be in −200…200, not {}", self.scale_exponent));
         }
         if !DVec3::from_array(self.offset).is_finite() {

@@ -3,9 +3,10 @@
 use crate::definition::{Definition, MeshFile};
 use crate::error::SceneError;
 use crate::modifier::{self, Transform};
+use crate::reader::{self, Polygons};
 use crate::spec::{SceneSpec, Source};
-use crate::{catalog, reader, view};
-use accel::{Geometry, Scene, View};
+use crate::{catalog, view};
+use accel::{Geometry, Mesh, Scene, Vec3, View};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +19,8 @@ pub struct Loaded {
     pub original: Option<Vec<u32>>,
     /// `generated` with its seed, or the file and its origin.
     pub source: String,
+    /// What a user should know of how the file was read.
+    pub notes: Vec<String>,
 }
 
 /// Definitions may stand on each other this often.
@@ -49,10 +52,12 @@ fn resolve(spec: &SceneSpec, depth: u32) -> Result<Loaded, SceneError> {
             define(&definition, Some(path.parent().unwrap_or(Path::new("."))), depth)?
         }
         Source::Mesh(path) => {
-            let geometry = Geometry::Triangles(reader::mesh(path)?);
+            let (mesh, notes) = noted(path, reader::mesh(path)?);
+            let geometry = Geometry::Triangles(mesh);
             let id = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
             let view = view::framing(&geometry);
-            Loaded { scene: Scene { id, geometry, view }, original: None, source: path.display().to_string() }
+            let scene = Scene { id, geometry, view };
+            Loaded { scene, original: None, source: path.display().to_string(), notes }
         }
     };
     loaded.scene.id.push_str(&spec.suffix);
@@ -77,19 +82,21 @@ fn define(definition: &Definition, folder: Option<&Path>, depth: u32) -> Result<
         }
         return finish(definition, resolve(&spec, depth - 1)?);
     }
-    let (geometry, source) = match (&definition.generator, &definition.file) {
+    let (geometry, source, notes) = match (&definition.generator, &definition.file) {
         (Some(generator), _) => {
             let geometry = generator.build(definition.seed).map_err(|reason| bad(&origin, reason))?;
-            (geometry, format!("generated, seed {}", definition.seed))
+            (geometry, format!("generated, seed {}", definition.seed), Vec::new())
         }
         (None, Some(file)) => {
             let source = if file.source.is_empty() { &file.name } else { &file.source };
-            (Geometry::Triangles(read(&definition.id, file, folder)?), source.clone())
+            let (mesh, notes) = read(&definition.id, file, folder)?;
+            (Geometry::Triangles(mesh), source.clone(), notes)
         }
         (None, None) => return Err(bad(&origin, "it has no geometry".into())),
     };
     let view = view::framing(&geometry);
-    finish(definition, Loaded { scene: Scene { id: String::new(), geometry, view }, original: None, source })
+    let scene = Scene { id: String::new(), geometry, view };
+    finish(definition, Loaded { scene, original: None, source, notes })
 }
 
 fn finish(definition: &Definition, mut loaded: Loaded) -> Result<Loaded, SceneError> {
@@ -116,20 +123,44 @@ fn change(
             (before, facets) => facets.or(before),
         };
     }
+    let before = largest(geometry);
     transform.apply(geometry, view);
-    match not_finite(geometry) {
-        Some((vertex, value)) => {
-            let value = value.to_string();
-            Err(SceneError::NotFinite { path: PathBuf::from(id), line: None, vertex, value })
-        }
-        None => Ok(()),
+    if let Some((vertex, value)) = not_finite(geometry) {
+        let value = value.to_string();
+        return Err(SceneError::NotFinite { path: PathBuf::from(id), line: None, vertex, value });
+    }
+    let out_of_scale = |reason| Err(SceneError::OutOfScale { path: PathBuf::from(id), reason });
+    let after = largest(geometry);
+    if after > LARGEST {
+        return out_of_scale(format!(
+            "its largest coordinate is {after:e}; beyond {LARGEST:e} extents are not finite in single precision"
+        ));
+    }
+    if before >= f32::MIN_POSITIVE && after < f32::MIN_POSITIVE {
+        let exponent = transform.scale_exponent;
+        return out_of_scale(format!(
+            "scaled by 2^{exponent} its coordinates vanish: the largest was {before:e} and becomes {after:e}"
+        ));
+    }
+    Ok(())
+}
+
+/// Coordinates are up to 2¹²⁶: then extents, padded or not, are finite.
+const LARGEST: f32 = f32::from_bits(0x7e80_0000);
+
+/// The largest magnitude of a coordinate.
+fn largest(geometry: &Geometry) -> f32 {
+    let most = |p: &Vec3| p.abs().max_element();
+    match geometry {
+        Geometry::Triangles(mesh) => mesh.positions.iter().map(most).fold(0.0, f32::max),
+        Geometry::Boxes(boxes) => boxes.iter().map(|b| most(&b.min).max(most(&b.max))).fold(0.0, f32::max),
     }
 }
 
 /// The first corner, from 1, that is not finite.
 fn not_finite(geometry: &Geometry) -> Option<(u64, f32)> {
-    let bad = |p: &accel::Vec3| p.to_array().into_iter().find(|x| !x.is_finite());
-    let find = |mut points: Box<dyn Iterator<Item = &accel::Vec3> + '_>| {
+    let bad = |p: &Vec3| p.to_array().into_iter().find(|x| !x.is_finite());
+    let find = |mut points: Box<dyn Iterator<Item = &Vec3> + '_>| {
         points.by_ref().enumerate().find_map(|(i, p)| bad(p).map(|value| (i as u64 + 1, value)))
     };
     match geometry {
@@ -138,7 +169,17 @@ fn not_finite(geometry: &Geometry) -> Option<(u64, f32)> {
     }
 }
 
-fn read(id: &str, file: &MeshFile, folder: Option<&Path>) -> Result<accel::Mesh, SceneError> {
+/// The mesh, and in words what of its file is not in it.
+fn noted(path: &Path, polygons: Polygons) -> (Mesh, Vec<String>) {
+    let note = match polygons.skipped {
+        0 => None,
+        1 => Some(format!("{}: 1 face of fewer than three corners is left out", path.display())),
+        n => Some(format!("{}: {n} faces of fewer than three corners are left out", path.display())),
+    };
+    (polygons.mesh, note.into_iter().collect())
+}
+
+fn read(id: &str, file: &MeshFile, folder: Option<&Path>) -> Result<(Mesh, Vec<String>), SceneError> {
     let unavailable = |reason: String| SceneError::Unavailable {
         id: id.to_owned(),
         reason,
@@ -158,12 +199,12 @@ fn read(id: &str, file: &MeshFile, folder: Option<&Path>) -> Result<accel::Mesh,
             )));
         }
     }
-    let mesh = reader::mesh(&path)?;
+    let (mesh, notes) = noted(&path, reader::mesh(&path)?);
     match file.triangles {
         Some(expected) if expected != mesh.triangles.len() as u64 => Err(bad(
             format!("`{id}`"),
             format!("{} triangles are announced, {} read", expected, mesh.triangles.len()),
         )),
-        _ => Ok(mesh),
+        _ => Ok((mesh, notes)),
     }
 }

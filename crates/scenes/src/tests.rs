@@ -25,7 +25,7 @@ fn file(folder: &TempDir, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
 
 fn read(name: &str, bytes: impl AsRef<[u8]>) -> Result<Mesh, SceneError> {
     let folder = tempfile::tempdir().unwrap();
-    load_mesh(&file(&folder, name, bytes))
+    Ok(load_mesh(&file(&folder, name, bytes))?.mesh)
 }
 
 #[test]
@@ -134,6 +134,53 @@ fn obj_statements() {
 }
 
 #[test]
+fn obj_is_taken_as_it_is_found() {
+    let mark = read("a.obj", format!("\u{feff}{TETRAHEDRON}f 1 2 3")).unwrap();
+    assert_eq!((mark.positions.len(), mark.positions[2]), (4, Vec3::Y), "no vertex is lost");
+    // Names in Latin-1, a fourth coordinate, colours, blanks, a comment that touches, polylines, groups.
+    let found =
+        b"o caf\xe9\n v 0 0 0 2 # w\nv 1 0 0 0.5 0.5 0.5\nusemtl\nv 0 1 0#x\n\tf 1 2 3\ng\nl 1 2 3\nf 3 2 1";
+    let found = read("a.obj", found).unwrap();
+    assert_eq!((found.positions[0], found.triangles), (Vec3::ZERO, vec![[0, 1, 2], [2, 1, 0]]));
+    let spare = read("a.obj", format!("v 9 9 9\n{TETRAHEDRON}f 4 3 2\nf 5 5 1")).unwrap();
+    assert_eq!(
+        (spare.positions.len(), spare.triangles),
+        (5, vec![[3, 2, 1], [4, 4, 0]]),
+        "the file's numbers"
+    );
+}
+
+#[test]
+fn faces_without_area_by_their_corners_are_left_out_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, "a.obj", format!("{TETRAHEDRON}f 1 2\nf 1 2 3\nf 4\nf\nf 2 3 4\nf 1 x"));
+    let read = load_mesh(&path).unwrap();
+    assert_eq!((read.mesh.triangles.len(), read.skipped), (2, 4));
+    let loaded = load_full(&path.to_str().unwrap().parse().unwrap()).unwrap();
+    assert!(loaded.notes[0].ends_with("a.obj: 4 faces of fewer than three corners are left out"));
+    assert!(load_full(&"bumps-1k".parse().unwrap()).unwrap().notes.is_empty());
+}
+
+#[test]
+fn scales_that_single_precision_cannot_reckon_with_are_refused() {
+    let refused = |name: &str, says: &str| {
+        let error = get(name).unwrap_err().to_string();
+        assert!(error.contains(name.split('@').next().unwrap()) && error.contains(says), "{error}");
+    };
+    refused("bumps-1k@scale=-2147483648", "exponent must be in −200…200");
+    refused("bumps-1k@scale=2147483647", "exponent must be in −200…200");
+    refused("bumps-1k@scale=127", "extents are not finite");
+    refused("bumps-1k@scale=-150", "its coordinates vanish");
+    refused("bumps-1k@offset=2e38,0,0", "extents are not finite");
+    let folder = tempfile::tempdir().unwrap();
+    let wide = file(&folder, "wide.obj", "v -3e38 0 0\nv 3e38 0 0\nv 0 1 0\nf 1 2 3");
+    assert!(matches!(get(wide.to_str().unwrap()), Err(SceneError::OutOfScale { .. })));
+    for fine in ["bumps-1k@scale=125", "bumps-1k@scale=-120", "unit-empty@scale=-200"] {
+        assert!(get(fine).is_ok(), "{fine}");
+    }
+}
+
+#[test]
 fn bad_files_are_explained() {
     let v = TETRAHEDRON;
     for (name, text, says) in [
@@ -146,7 +193,7 @@ fn bad_files_are_explained() {
         ("a.obj", format!("{v}f 1 2 0"), "line 5: the face names vertex 0"),
         ("a.obj", format!("{v}f 1 2 -5"), "line 5: the face names vertex -5"),
         ("a.obj", format!("{v}f 1 2 99999999999999999"), "line 5: the face names vertex 99999999999999999"),
-        ("a.obj", format!("{v}f 1 2"), "line 5: a face needs three corners"),
+        ("a.obj", format!("{v}f 1 2"), "no faces in 5 lines but 1 of fewer than three corners"),
         ("a.obj", format!("{v}f 1 2 x"), "line 5: a face has `x`"),
         ("a.obj", v.into(), "no faces in 4 lines"),
         ("a.obj", String::new(), "nor vertices"),
@@ -249,7 +296,7 @@ fn obj_reader_agrees_with_tobj() {
         }
     }
     let path = file(&folder, "a.obj", text);
-    let ours = load_mesh(&path).unwrap();
+    let ours = load_mesh(&path).unwrap().mesh;
     assert_eq!(corners(&ours), tobj_corners(&path));
 }
 

@@ -22,12 +22,14 @@ mod shell;
 mod structure;
 mod tally;
 
+use meshes::Wanted;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
 usage: cargo xtask <command>
 
-  setup             find Embree 4 or install it; fetch the real meshes
+  setup [MESH…]     find Embree 4 or install it; fetch the real meshes, the large ones only if named
+                    or with --all
   compare [ARGS]    set up, build, then run `rayscale compare ARGS`
   test              set up, then formatting, lints, tests, documentation
   structure         list which crates and modules import which; fail on a cycle
@@ -41,15 +43,21 @@ fn main() -> ExitCode {
     let rest: Vec<String> = args.collect();
     let places = places::Places::of_this_checkout();
     match (verb.as_str(), rest.is_empty()) {
-        ("setup", true) => match setup::run(&places) {
-            Ok(_) => ExitCode::SUCCESS,
-            Err(why) => fail(&format!("set-up failed: {why}")),
+        ("setup", _) => match Wanted::parse(&rest) {
+            Ok(wanted) => match setup::run(&places, wanted) {
+                Ok(_) => ExitCode::SUCCESS,
+                Err(why) => fail(&format!("set-up failed: {why}")),
+            },
+            Err(why) => {
+                eprintln!("xtask: {why}");
+                ExitCode::from(2)
+            }
         },
-        ("compare", _) => match setup::run(&places) {
+        ("compare", _) => match setup::run(&places, Wanted::Usual) {
             Ok(ready) => compare::run(&places, &ready, &rest),
             Err(why) => fail(&format!("set-up failed: {why}")),
         },
-        ("test", true) => match setup::run(&places) {
+        ("test", true) => match setup::run(&places, Wanted::Usual) {
             Ok(ready) => checks::run(&places, &ready),
             Err(why) => fail(&format!("set-up failed: {why}")),
         },

@@ -1,7 +1,7 @@
 //! `cargo xtask setup`: everything that the workspace needs beyond Rust and a C toolchain.
 
 use crate::embree::{self, Embree};
-use crate::meshes;
+use crate::meshes::{self, Wanted};
 use crate::places::{self, Places};
 
 /// What set-up has found.
@@ -14,7 +14,7 @@ pub struct Ready {
 ///
 /// # Errors
 /// Only when `.setup` cannot be written: what cannot be had is recorded as missing.
-pub fn run(places: &Places) -> Result<Ready, String> {
+pub fn run(places: &Places, wanted: Wanted) -> Result<Ready, String> {
     std::fs::create_dir_all(&places.setup)
         .map_err(|e| format!("cannot create {}: {e}", places.setup.display()))?;
     let embree = match embree::find_or_install(places) {
@@ -31,7 +31,7 @@ pub fn run(places: &Places) -> Result<Ready, String> {
             false
         }
     };
-    meshes::fetch_all(places)?;
+    meshes::fetch_all(places, wanted)?;
     let scratch = places.setup.join("scratch");
     if scratch.exists() {
         std::fs::remove_dir_all(&scratch).map_err(|e| format!("cannot remove {}: {e}", scratch.display()))?;

@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 /// Longer lines are taken for a sign that this is no text.
 const LONGEST: u64 = 1 << 20;
 
+/// What some editors put before UTF-8 text.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// A reader of lines.
 pub struct Lines {
     path: PathBuf,
@@ -38,6 +41,9 @@ impl Lines {
             return Ok(false);
         }
         self.number += 1;
+        if self.number == 1 && self.line.starts_with(BYTE_ORDER_MARK) {
+            self.line.drain(..BYTE_ORDER_MARK.len());
+        }
         if self.line.contains(&0) {
             return Err(self.syntax("a zero byte: this is not a text file".into()));
         }

@@ -1,7 +1,8 @@
 //! ASCII PLY (G. Turk 1994, <http://paulbourke.net/dataformats/ply/>): vertices and faces.
 
 use super::lines::{Lines, show};
-use super::{MOST, fan, position};
+use super::polygons::{MOST, Polygons};
+use super::position::position;
 use crate::error::SceneError;
 use accel::Mesh;
 
@@ -14,9 +15,10 @@ struct Element {
 }
 
 /// Reads the mesh.
-pub fn read(mut lines: Lines) -> Result<Mesh, SceneError> {
+pub fn read(mut lines: Lines) -> Result<Polygons, SceneError> {
     let elements = header(&mut lines)?;
-    let mut mesh = Mesh { positions: Vec::new(), triangles: Vec::new() };
+    let mesh = Mesh { positions: Vec::new(), triangles: Vec::new() };
+    let mut polygons = Polygons { mesh, skipped: 0 };
     let mut vertices = None;
     for element in &elements {
         let mut done = 0;
@@ -29,21 +31,22 @@ pub fn read(mut lines: Lines) -> Result<Mesh, SceneError> {
                 continue;
             }
             match element.name.as_slice() {
-                b"vertex" => vertex(&lines, element, &mut mesh)?,
-                b"face" => face(&lines, element, &mut mesh, vertices)?,
+                b"vertex" => vertex(&lines, element, &mut polygons.mesh)?,
+                b"face" => face(&lines, element, &mut polygons, vertices)?,
                 _ => {}
             }
             done += 1;
         }
         if element.name == b"vertex" {
-            vertices = Some(mesh.positions.len());
+            vertices = Some(polygons.mesh.positions.len());
         }
     }
+    let Polygons { mesh, skipped } = &polygons;
     if mesh.triangles.is_empty() {
-        let vertices = mesh.positions.len() as u64;
-        return Err(SceneError::NoFaces { path: lines.path().to_owned(), lines: lines.number(), vertices });
+        let (path, vertices) = (lines.path().to_owned(), mesh.positions.len() as u64);
+        return Err(SceneError::NoFaces { path, lines: lines.number(), vertices, skipped: *skipped });
     }
-    Ok(mesh)
+    Ok(polygons)
 }
 
 fn header(lines: &mut Lines) -> Result<Vec<Element>, SceneError> {
@@ -112,7 +115,7 @@ fn vertex(lines: &Lines, element: &Element, mesh: &mut Mesh) -> Result<(), Scene
 fn face(
     lines: &Lines,
     element: &Element,
-    mesh: &mut Mesh,
+    polygons: &mut Polygons,
     vertices: Option<usize>,
 ) -> Result<(), SceneError> {
     let Some(vertices) = vertices else {
@@ -147,7 +150,7 @@ fn face(
                 lines.syntax(format!("the face announces {length} corners and has {}", corners.len()))
             );
         }
-        return fan(lines, &mut mesh.triangles, &corners);
+        return polygons.fan(&corners).map_err(|_| lines.too_large("triangles", MOST));
     }
     Err(lines.syntax("the faces have no property `vertex_indices`".into()))
 }
