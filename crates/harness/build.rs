@@ -7,6 +7,7 @@ use std::process::Command;
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    why_no_embree(&root);
     let git = |args: &[&str]| {
         let output = Command::new("git").arg("-C").arg(&root).args(args).output().ok()?;
         output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
@@ -28,4 +29,13 @@ fn main() {
     println!("cargo::rustc-env=RAYSCALE_PROFILE={}", env::var("PROFILE").unwrap_or_default());
     let flags = env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default().replace('\u{1f}', " ");
     println!("cargo::rustc-env=RAYSCALE_RUSTFLAGS={flags}");
+}
+
+/// What set-up wrote down where it found no Embree.
+fn why_no_embree(root: &Path) {
+    let note = root.join(".setup/embree-missing.txt");
+    let Ok(text) = std::fs::read_to_string(&note) else { return };
+    println!("cargo::rerun-if-changed={}", note.display());
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    println!("cargo::rustc-env=RAYSCALE_EMBREE_MISSING={line}");
 }

@@ -6,6 +6,7 @@ use crate::console::{Console, Global};
 use crate::interrupt;
 use crate::verb::{Outcome, Verb};
 use crate::verbs::*;
+use ::scenes::Folders;
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -63,6 +64,8 @@ impl Command {
 /// The whole program.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
+    let Global { scenes, meshes, .. } = cli.global.clone();
+    ::scenes::look_in(Folders { scenes, meshes });
     let console = Console::new(cli.global, grammar);
     let outcome = match &cli.command {
         Some(command) => command.verb().run(&console),

@@ -8,6 +8,7 @@ use serde::Serialize;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Options of every verb.
@@ -23,6 +24,13 @@ pub struct Global {
     /// Threads to use; each verb's help says what it uses otherwise
     #[arg(long, global = true, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// The folder of scene definitions that go before the program's own; $RAYSCALE_SCENES or ./scenes otherwise
+    #[arg(long, global = true, value_name = "DIR")]
+    pub scenes: Option<PathBuf>,
+    /// The folder of meshes; otherwise $RAYSCALE_MESHES, or .setup/meshes here or above, then rayscale/meshes in your
+    /// data folder
+    #[arg(long, global = true, value_name = "DIR")]
+    pub meshes: Option<PathBuf>,
 }
 
 /// The user's terminal, or the files that stand for it.

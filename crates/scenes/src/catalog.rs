@@ -1,21 +1,69 @@
-//! The scenes that the suite knows: the definitions under `scenes/`, part of the program.
+//! The scenes that the suite knows: the definitions under `scenes/`, part of the program, and those of a folder of
+//! the user's.
 
 use crate::definition::Definition;
 use crate::error::SceneError;
+use crate::folders;
 use crate::near::near;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// File name and text of every definition, listed at build time.
 static TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/definitions.rs"));
 
-static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
-    let parse = |(file, text): &(&'static str, &'static str)| {
-        let head = toml::from_str(text).unwrap_or_else(|error| panic!("scenes/{file}: {error}"));
-        Entry { file, text, head }
-    };
-    TEXTS.iter().map(parse).collect()
-});
+static CATALOG: LazyLock<Catalog> = LazyLock::new(Catalog::load);
+
+/// The definitions of the program, and those of the folder that goes before them.
+struct Catalog {
+    entries: Vec<Entry>,
+    /// Files of the folder that hold no definition.
+    broken: Vec<SceneError>,
+}
+
+impl Catalog {
+    fn load() -> Self {
+        let embedded = TEXTS.iter().map(|(file, text)| {
+            Entry::read(file, Cow::Borrowed(text)).unwrap_or_else(|error| panic!("{error}"))
+        });
+        let mut catalog = Self { entries: embedded.collect(), broken: Vec::new() };
+        if let Some(folder) = folders::scenes() {
+            catalog.add(&folder);
+        }
+        catalog
+    }
+
+    /// Adds the definitions of a folder; one of a name that is known takes its place.
+    fn add(&mut self, folder: &Path) {
+        let io = |source| SceneError::Io { path: folder.to_owned(), source };
+        let files = fs::read_dir(folder).and_then(|files| files.collect::<Result<Vec<_>, _>>()).map_err(io);
+        let mut paths: Vec<PathBuf> = match files {
+            Ok(files) => files.into_iter().map(|file| file.path()).collect(),
+            Err(error) => return self.broken.push(error),
+        };
+        paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+        paths.sort();
+        for path in paths {
+            let text =
+                fs::read_to_string(&path).map_err(|source| SceneError::Io { path: path.clone(), source });
+            let origin = path.display().to_string();
+            match text.and_then(|text| Entry::read(&origin, Cow::Owned(text))) {
+                Ok(entry) => match self.entries.iter_mut().find(|known| known.head.id == entry.head.id) {
+                    Some(known) => *known = entry,
+                    None => self.entries.push(entry),
+                },
+                Err(error) => self.broken.push(error),
+            }
+        }
+    }
+}
+
+/// What is wrong with the folder of definitions or with files in it, which are passed over.
+pub fn broken_definitions() -> &'static [SceneError] {
+    &CATALOG.broken
+}
 
 /// What a list says of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -45,8 +93,9 @@ pub struct SceneInfo {
 }
 
 struct Entry {
-    file: &'static str,
-    text: &'static str,
+    /// The file's name, or its path where it is none of the program's.
+    file: String,
+    text: Cow<'static, str>,
     head: Head,
 }
 
@@ -76,7 +125,8 @@ fn one() -> u64 {
 
 /// Every scene that lists show: definitions, and the named members of families.
 pub fn list() -> Vec<SceneInfo> {
-    let mut all: Vec<SceneInfo> = ENTRIES
+    let mut all: Vec<SceneInfo> = CATALOG
+        .entries
         .iter()
         .flat_map(|entry| {
             let ids =
@@ -93,7 +143,7 @@ pub fn list() -> Vec<SceneInfo> {
 /// # Errors
 /// [`SceneError::Unknown`] with suggestions.
 pub fn describe(id: &str) -> Result<SceneInfo, SceneError> {
-    let entry = ENTRIES.iter().find(|entry| entry.matches(id).is_some());
+    let entry = CATALOG.entries.iter().find(|entry| entry.matches(id).is_some());
     entry.map(|entry| entry.info(id.to_owned())).ok_or_else(|| unknown(id))
 }
 
@@ -104,14 +154,14 @@ pub fn describe(id: &str) -> Result<SceneInfo, SceneError> {
 /// family can't use.
 pub fn definition(id: &str) -> Result<Definition, SceneError> {
     // A definition's own name goes before a family that it would fit.
-    let named = ENTRIES.iter().find(|entry| entry.head.id == id);
-    let fitting = || ENTRIES.iter().find(|entry| entry.matches(id).is_some());
+    let named = CATALOG.entries.iter().find(|entry| entry.head.id == id);
+    let fitting = || CATALOG.entries.iter().find(|entry| entry.matches(id).is_some());
     let entry = named.or_else(fitting).ok_or_else(|| unknown(id))?;
-    let mut text = entry.text.to_owned();
+    let mut text = entry.text.clone().into_owned();
     for (name, number) in entry.matches(id).unwrap_or_default() {
         text = text.replace(&format!("\"{{{name}}}\""), &number);
     }
-    let bad = |reason| SceneError::Definition { origin: format!("`{id}` (scenes/{})", entry.file), reason };
+    let bad = |reason| SceneError::Definition { origin: format!("`{id}` ({})", entry.file), reason };
     let mut definition = Definition::parse(&text).map_err(bad)?;
     id.clone_into(&mut definition.id);
     Ok(definition)
@@ -124,6 +174,14 @@ pub fn unknown(id: &str) -> SceneError {
 }
 
 impl Entry {
+    fn read(file: &str, text: Cow<'static, str>) -> Result<Self, SceneError> {
+        let head = toml::from_str(&text).map_err(|error| SceneError::Definition {
+            origin: file.to_owned(),
+            reason: error.to_string().trim_end().to_owned(),
+        })?;
+        Ok(Self { file: file.to_owned(), text, head })
+    }
+
     fn is_family(&self) -> bool {
         self.head.id.contains('{')
     }
@@ -193,6 +251,22 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_folder_goes_before_the_program() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = "id = \"stadium\"\ndescription = \"mine\"\ncharacter = \"few\"\nbase = \"unit-one\"\n";
+        fs::write(folder.path().join("anything.toml"), own).unwrap();
+        fs::write(folder.path().join("slip.toml"), "id = 3").unwrap();
+        let mut catalog = Catalog { entries: Vec::new(), broken: Vec::new() };
+        catalog.entries.push(Entry::read("stadium.toml", Cow::Owned(own.replace("mine", "first"))).unwrap());
+        catalog.add(folder.path());
+        assert_eq!(catalog.entries.len(), 1);
+        assert_eq!(catalog.entries[0].head.description, "mine");
+        assert!(catalog.broken[0].to_string().contains("slip.toml"), "{}", catalog.broken[0]);
+        catalog.add(&folder.path().join("none"));
+        assert!(matches!(catalog.broken[1], SceneError::Io { .. }));
+    }
+
+    #[test]
     fn numbers_of_families() {
         for (word, value) in
             [("10k", "10000"), ("2m", "2000000"), ("m100", "-100"), ("p7", "7"), ("0", "0"), ("007", "7")]
@@ -230,7 +304,7 @@ mod tests {
 
     #[test]
     fn default_members_are_members() {
-        for entry in ENTRIES.iter() {
+        for entry in CATALOG.entries.iter() {
             assert!(
                 entry.head.default_members.iter().all(|id| entry.head.members.contains(id)),
                 "{}",

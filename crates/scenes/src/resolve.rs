@@ -183,7 +183,7 @@ fn read(id: &str, file: &MeshFile, folder: Option<&Path>) -> Result<(Mesh, Vec<S
     let unavailable = |reason: String| SceneError::Unavailable {
         id: id.to_owned(),
         reason,
-        hint: "run `cargo xtask setup`, which fetches it",
+        hint: "run `cargo xtask setup` in a checkout, which fetches it, or name its folder by --meshes",
     };
     let path = match folder {
         Some(folder) => folder.join(&file.name),

@@ -12,3 +12,15 @@ mod structure;
 mod tree;
 
 pub use structure::{ObvhsBuilder, Preset, Variant};
+
+/// The version of obvhs that the workspace pins.
+pub const VERSION: &str = "0.4.0";
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_version_is_the_one_pinned() {
+        let manifest = include_str!("../../../../Cargo.toml");
+        assert!(manifest.contains(&format!("obvhs = \"={}\"", super::VERSION)));
+    }
+}

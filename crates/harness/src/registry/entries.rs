@@ -51,11 +51,8 @@ const OBVHS: Entry = Entry {
     make: |s| obvhs(Tree::Bvh2, s),
 };
 
-/// The version that the lock file pins.
 fn obvhs_version() -> String {
-    let lock = include_str!("../../../../Cargo.lock");
-    let version = lock.split("name = \"obvhs\"\nversion = \"").nth(1).and_then(|rest| rest.split('"').next());
-    version.unwrap_or("unknown").to_owned()
+    adapter_obvhs::VERSION.to_owned()
 }
 
 #[cfg(feature = "embree")]
@@ -273,9 +270,7 @@ pub(super) fn absent() -> Vec<Absent> {
     absent.map(|id| Absent { id, reason: embree_missing() }).collect()
 }
 
-/// Why there is no Embree: what set-up wrote down, if it ran.
+/// Why there is no Embree: what set-up wrote down before the program was built, if it ran.
 fn embree_missing() -> String {
-    let note = concat!(env!("CARGO_MANIFEST_DIR"), "/../../.setup/embree-missing.txt");
-    let said = std::fs::read_to_string(note).ok().map(|text| text.trim().to_owned());
-    said.filter(|text| !text.is_empty()).unwrap_or_else(|| "built without the feature `embree`".to_owned())
+    option_env!("RAYSCALE_EMBREE_MISSING").unwrap_or("built without the feature `embree`").to_owned()
 }

@@ -74,7 +74,7 @@ pub fn write(record: &Record, pictures: &Pictures, folder: &Path) -> Result<Vec<
 
 fn file(
     path: &Path,
-    write: impl FnOnce(&mut io::BufWriter<std::fs::File>) -> io::Result<()>,
+    write: impl FnOnce(&mut io::BufWriter<&std::fs::File>) -> io::Result<()>,
 ) -> Result<(), Error> {
     write_whole(path, write).map_err(|error| Error::io(path.display(), error))
 }

@@ -82,12 +82,17 @@ impl Verb for Scenes {
 }
 
 fn list(console: &Console) -> Result<(), Error> {
+    scenes::broken_definitions().iter().for_each(|error| console.note(format_args!("passed over: {error}")));
     let all = scenes::list();
     let width = all.iter().map(|info| info.id.len()).max().unwrap_or(0);
     let mut text = String::new();
     for SceneInfo { id, description, character, default, available, .. } in &all {
         let mark = if *default { '*' } else { ' ' };
-        let absent = if *available { "" } else { " [mesh not here: run `cargo xtask setup`]" };
+        let absent = if *available {
+            ""
+        } else {
+            " [mesh not here: `cargo xtask setup` fetches it, --meshes names its folder]"
+        };
         // Writing to a string does not fail.
         let _ = writeln!(text, "{mark} {id:<width$}  {description} ({character}){absent}");
     }
