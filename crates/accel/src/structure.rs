@@ -1,6 +1,6 @@
 //! The contract of acceleration structures.
 
-use crate::parallel::prelude::*;
+use crate::parallel::for_each_chunk;
 use crate::{Footprint, Hit, Ray, RaySet, Scene};
 
 /// A built acceleration structure.
@@ -56,16 +56,11 @@ const CHUNK: usize = 4096;
 /// If `out` is not as long as the set.
 pub fn for_each_ray<T: Send>(rays: &RaySet, out: &mut [T], of: impl Fn(&Ray) -> T + Sync) {
     assert_eq!(rays.len(), out.len(), "one place for each ray");
-    let serve = |(chunk, out): (usize, &mut [T])| {
+    for_each_chunk(out, CHUNK, &|chunk, out| {
         for (i, out) in out.iter_mut().enumerate() {
             *out = of(&rays.ray(chunk * CHUNK + i));
         }
-    };
-    if crate::parallel::threads() == 1 {
-        out.chunks_mut(CHUNK).enumerate().for_each(serve);
-    } else {
-        out.par_chunks_mut(CHUNK).enumerate().for_each(serve);
-    }
+    });
 }
 
 /// What a workload requires. A structure builds nothing that the need doesn't name.

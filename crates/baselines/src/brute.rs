@@ -1,6 +1,6 @@
 //! Brute force: every object tested for every ray.
 
-use accel::parallel::prelude::*;
+use accel::parallel::for_each_chunk;
 use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Need, Ray, RaySet, Scene};
 use lanes::{BLOCK, Blocks, Level, PackedObjects, Simd, Task};
 use primitives::{KernelId, WithObjects};
@@ -97,7 +97,7 @@ impl<O: PackedObjects> Accel for Built<O> {
 
     fn trace(&self, rays: &RaySet, hits: &mut [Option<Hit>]) {
         assert_eq!(rays.len(), hits.len(), "one place for each ray");
-        hits.par_chunks_mut(TOGETHER).enumerate().for_each(|(chunk, hits)| {
+        for_each_chunk(hits, TOGETHER, &|chunk, hits| {
             let first = chunk * TOGETHER;
             let rays: Vec<Ray> = (first..first + hits.len()).map(|i| rays.ray(i)).collect();
             for (hit, nearest) in hits.iter_mut().zip(self.nearest(&rays)) {

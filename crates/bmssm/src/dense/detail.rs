@@ -1,12 +1,15 @@
 //! Detail tests of the objects whose bits are set in a word.
 
 use accel::{Nearest, Objects, Ray};
-use lanes::{Blocks, Simd};
+use lanes::{Blocks, Level, Portable, Simd, Task};
 
 /// A way from a word of candidates to hits.
 pub trait Detail: Send + Sync {
     /// A prepared ray.
     type Ray: Copy;
+
+    /// Runs a task that makes such tests, at `level` if they are made in lanes.
+    fn run<T: Task>(&self, level: Level, task: T) -> T::Out;
 
     /// Prepares a ray.
     fn ray(&self, ray: &Ray) -> Self::Ray;
@@ -51,6 +54,10 @@ impl<O: Objects> Appendix<O> {
 impl<O: Objects> Detail for Appendix<O> {
     type Ray = Ray;
 
+    fn run<T: Task>(&self, _: Level, task: T) -> T::Out {
+        task.run(Portable)
+    }
+
     #[inline(always)]
     fn ray(&self, ray: &Ray) -> Ray {
         *ray
@@ -84,6 +91,10 @@ pub struct Words<B>(pub B);
 
 impl<B: Blocks> Detail for Words<B> {
     type Ray = B::One;
+
+    fn run<T: Task>(&self, level: Level, task: T) -> T::Out {
+        level.run(task)
+    }
 
     #[inline(always)]
     fn ray(&self, ray: &Ray) -> B::One {

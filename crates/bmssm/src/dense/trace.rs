@@ -3,9 +3,9 @@
 use super::detail::Detail;
 use super::{ImageMaps, SpaceMaps};
 use accel::dda::Walk;
-use accel::parallel::prelude::*;
+use accel::parallel::for_each_chunk;
 use accel::{Accel, Count, Counters, Footprint, Hit, Nearest, NoCount, Ray, RaySet};
-use lanes::{Level, Simd, Task};
+use lanes::{Level, Portable, Simd, Task};
 
 /// Rays traced by one task of the thread pool.
 const CHUNK: usize = 1024;
@@ -168,14 +168,18 @@ impl<D: Detail> Built<D> {
     fn trace_all<A: Answer>(&self, rays: &RaySet, out: &mut [A]) {
         assert_eq!(rays.len(), out.len(), "one place for each ray");
         let route = self.route(rays);
-        out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
-            self.simd.run(Chunk { built: self, rays, route, first: chunk * CHUNK, out });
+        for_each_chunk(out, CHUNK, &|chunk, out| {
+            self.detail.run(self.simd, Chunk { built: self, rays, route, first: chunk * CHUNK, out });
         });
     }
 
     fn count_all<const ANY: bool>(&self, rays: &RaySet) -> Counters {
         let mut counted = vec![Counted::<ANY>::default(); rays.len()];
-        self.trace_all(rays, &mut counted);
+        let route = self.route(rays);
+        // The same steps at every level: one is enough.
+        for_each_chunk(&mut counted, CHUNK, &|chunk, out| {
+            Chunk { built: self, rays, route, first: chunk * CHUNK, out }.run(Portable);
+        });
         let mut sum = Counters::default();
         counted.iter().for_each(|Counted(one)| sum.merge(one));
         sum
@@ -185,7 +189,7 @@ impl<D: Detail> Built<D> {
         let mut out = [none];
         let route = self.general_route();
         let rays = RaySet::List(vec![*ray]);
-        self.simd.run(Chunk { built: self, rays: &rays, route, first: 0, out: &mut out });
+        self.detail.run(self.simd, Chunk { built: self, rays: &rays, route, first: 0, out: &mut out });
         out[0]
     }
 }

@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::general::General;
 use crate::raster::RasterMaps;
-use accel::parallel::prelude::*;
+use accel::parallel::for_each_chunk;
 use accel::{Accel, Counters, Footprint, Hit, Ray, RaySet};
 use lanes::PackedObjects;
 
@@ -37,7 +37,7 @@ impl<O: PackedObjects> Built<O> {
 
     fn trace_general<T: Send>(&self, rays: &RaySet, out: &mut [T], of: impl Fn(&[Ray], &mut [T]) + Sync) {
         assert_eq!(rays.len(), out.len(), "one place for each ray");
-        out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
+        for_each_chunk(out, CHUNK, &|chunk, out| {
             let first = chunk * CHUNK;
             match rays {
                 RaySet::List(list) => of(&list[first..first + out.len()], out),

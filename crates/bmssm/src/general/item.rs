@@ -2,6 +2,7 @@
 
 use super::unit_box::UnitBox;
 use accel::grid::Grid;
+use accel::parallel::map_chunks;
 use accel::parallel::prelude::*;
 use accel::{Aabb, Objects, Vec3, filled, morton};
 use lanes::{Level, Simd, Task};
@@ -150,9 +151,9 @@ impl Scene {
     /// Of all objects.
     pub fn new<O: Objects>(objects: &O, simd: Level) -> Self {
         let mut items = filled(Item { low: [0.0; 4], high: [0.0; 4] }, objects.len());
-        let chunks = items.par_chunks_mut(CHUNK).enumerate();
-        let found: Vec<(Extremes, Spread)> =
-            chunks.map(|(chunk, items)| simd.run(Found { objects, first: chunk * CHUNK, items })).collect();
+        let found = map_chunks(&mut items, CHUNK, &|chunk, items| {
+            simd.run(Found { objects, first: chunk * CHUNK, items })
+        });
         let (mut all, mut spread) = (Extremes::NONE, Spread::default());
         for (range, part) in &found {
             all.gather_signed(range);

@@ -12,7 +12,7 @@ mod unit_box;
 use accel::grid::Grid;
 use accel::{Count, Footprint, Hit, NoCount, Ray, vec_bytes};
 use item::Scene;
-use lanes::{Blocks, Level, PackedObjects, Simd, Task};
+use lanes::{Blocks, Level, PackedObjects, Portable, Simd, Task};
 use maps::BlockMaps;
 use order::Order;
 use split::Shape;
@@ -71,7 +71,8 @@ impl<O: PackedObjects> General<O> {
 
     /// Steps that the rays take.
     pub fn count<C: Count>(&self, rays: &[Ray], occlusion: bool) -> C {
-        self.simd.run(Counted { general: self, rays, occlusion, count: C::default() })
+        // The same steps at every level: one is enough.
+        Counted { general: self, rays, occlusion, count: C::default() }.run(Portable)
     }
 
     /// Bytes held.

@@ -22,38 +22,49 @@ impl<O: PackedObjects> RasterMaps<O> {
     /// Builds the maps of `raster` in the current rayon pool.
     pub fn build(objects: O, raster: &Raster, settings: Settings) -> Self {
         let shown = shown(objects, raster, settings.simd);
-        let order = sorted(&shown, raster, &settings);
-        let mut parts: Vec<Part> = order
-            .par_chunks(CHUNK * BLOCK)
-            .map(|slots| settings.simd.run(Registered { shown: &shown, slots }))
-            .collect();
-        drop(order);
-        let mut words = 0;
-        let mut unordered = Vec::with_capacity(shown.len().div_ceil(BLOCK));
-        for part in &parts {
-            unordered.extend(part.blocks.iter().map(|b| Block { words: b.words + words, ..*b }));
-            words += part.words.len() as u32;
-        }
-        let words: Vec<_> = parts.iter_mut().map(|part| std::mem::take(&mut part.words)).collect();
-        let words = concatenated(&words);
-        // Depths are not negative, so their bits are ordered as they are. Words stay in the order of places.
-        let mut nearest_first: Vec<(u32, u32)> =
-            unordered.iter().zip(0..).map(|(block, i)| (block.depth[0].to_bits(), i)).collect();
-        nearest_first.sort_unstable();
-        let blocks: Vec<Block> = nearest_first.iter().map(|&(_, i)| unordered[i as usize]).collect();
-        let mut ids = filled(EMPTY_SLOT, blocks.len() * BLOCK);
-        ids.par_chunks_exact_mut(BLOCK).zip(&nearest_first).with_min_len(CHUNK).for_each(|(ids, &(_, i))| {
-            let (part, block) = (i as usize / CHUNK, i as usize % CHUNK);
-            ids.copy_from_slice(&parts[part].ids[block * BLOCK..][..BLOCK]);
-        });
-        drop(parts);
         let count = shown.len();
-        drop(shown);
+        let Laid { blocks, words, ids } = laid(shown, raster, &settings);
         let tiles = |pixels: u32| pixels.div_ceil(THICKNESS).div_ceil(settings.tile);
         let tiles = TileMaps::new(&blocks, tiles(raster.rows), tiles(raster.cols), settings.tile);
         let geometry = objects.blocks(&ids);
         Self { objects, raster: *raster, settings, shown: count, geometry, blocks, words, tiles }
     }
+}
+
+/// All blocks, their words and the objects in their slots.
+struct Laid {
+    blocks: Vec<Block>,
+    words: Vec<u64>,
+    ids: Vec<u32>,
+}
+
+/// Puts the objects in blocks, the nearest block first.
+fn laid(shown: Vec<Shown>, raster: &Raster, settings: &Settings) -> Laid {
+    let order = sorted(&shown, raster, settings);
+    let mut parts: Vec<Part> = order
+        .par_chunks(CHUNK * BLOCK)
+        .map(|slots| settings.simd.run(Registered { shown: &shown, slots }))
+        .collect();
+    drop(order);
+    let mut words = 0;
+    let mut unordered = Vec::with_capacity(shown.len().div_ceil(BLOCK));
+    for part in &parts {
+        unordered.extend(part.blocks.iter().map(|b| Block { words: b.words + words, ..*b }));
+        words += part.words.len() as u32;
+    }
+    let words: Vec<_> = parts.iter_mut().map(|part| std::mem::take(&mut part.words)).collect();
+    let words = concatenated(&words);
+    // Depths are not negative, so their bits are ordered as they are. Words stay in the order of places.
+    let mut nearest_first: Vec<(u32, u32)> =
+        unordered.iter().zip(0..).map(|(block, i)| (block.depth[0].to_bits(), i)).collect();
+    nearest_first.sort_unstable();
+    let blocks: Vec<Block> = nearest_first.iter().map(|&(_, i)| unordered[i as usize]).collect();
+    let mut ids = filled(EMPTY_SLOT, blocks.len() * BLOCK);
+    ids.par_chunks_exact_mut(BLOCK).zip(&nearest_first).with_min_len(CHUNK).for_each(|(ids, &(_, i))| {
+        let (part, block) = (i as usize / CHUNK, i as usize % CHUNK);
+        ids.copy_from_slice(&parts[part].ids[block * BLOCK..][..BLOCK]);
+    });
+    Laid { blocks, words, ids }
 }
 
 /// Registers neighbouring objects, block by block.

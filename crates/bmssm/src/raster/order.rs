@@ -3,6 +3,7 @@
 use super::{Settings, THICKNESS};
 use crate::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
+use accel::parallel::map_tasks;
 use accel::parallel::prelude::*;
 use accel::{Aabb, Objects, Projection, Raster, concatenated};
 use lanes::{Level, Simd, Task};
@@ -33,9 +34,7 @@ pub(super) fn shown<O: Objects + Copy>(objects: O, raster: &Raster, simd: Level)
     if objects.len() <= CHUNK {
         return of(0);
     }
-    let parts: Vec<Vec<Shown>> =
-        (0..objects.len().div_ceil(CHUNK)).into_par_iter().map(|i| of(i * CHUNK)).collect();
-    concatenated(&parts)
+    concatenated(&map_tasks(objects.len().div_ceil(CHUNK), &|i| of(i * CHUNK)))
 }
 
 /// The objects shown of [`CHUNK`] objects.

@@ -2,7 +2,7 @@
 
 use super::maps::GROUPS;
 use super::{RasterMaps, THICKNESS};
-use accel::parallel::prelude::*;
+use accel::parallel::map_chunks;
 use accel::{Common, Count, Counters, Hit, Nearest, NoCount};
 use lanes::packet::{NearestPacket, Packet};
 use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Simd, Task};
@@ -61,15 +61,10 @@ impl<O: PackedObjects> RasterMaps<O> {
             return Vec::new();
         }
         let band = (self.settings.tile * THICKNESS) as usize * self.raster.cols as usize;
-        let trace = |(row, hits): (usize, &mut [Option<Hit>])| {
+        map_chunks(hits, band, &|row, hits| {
             let band = Band { maps: self, row: row as u32, hits, count: C::default() };
             self.settings.simd.run(band)
-        };
-        if accel::parallel::threads() == 1 {
-            hits.chunks_mut(band).enumerate().map(trace).collect()
-        } else {
-            hits.par_chunks_mut(band).enumerate().map(trace).collect()
-        }
+        })
     }
 
     /// The slices in tile number `tile`, of so many pixels in all.

@@ -1,17 +1,16 @@
 //! Packing triangles in an order.
 
 use super::ids::Ids;
-use super::lattice::ShortRows;
 use super::{CORNER_ROWS, Kernel, TriangleBlocks, Triangles};
-use accel::parallel::prelude::*;
+use accel::parallel::for_each_chunk;
 use accel::{MeshRef, filled};
 use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, prefetch};
 
 /// Groups by which memory is asked for before it is needed; twice as many for what says where.
 const AHEAD: usize = 2;
 
-/// Groups packed by one task at least.
-const LEAST: usize = 512;
+/// Groups packed by one task.
+const TASK: usize = 512;
 
 /// Slot i holds triangle `order[i]`, or nothing for [`EMPTY_SLOT`].
 pub(super) fn blocks<'s, K: Kernel>(triangles: &Triangles<'s, K>, order: &[u32]) -> TriangleBlocks<'s, K> {
@@ -19,22 +18,24 @@ pub(super) fn blocks<'s, K: Kernel>(triangles: &Triangles<'s, K>, order: &[u32])
     let (mut rows, mut short) = (Vec::new(), Vec::new());
     if K::QUANTISED {
         short = filled([[0; ROW]; CORNER_ROWS], groups);
-        let pack = |(group, rows): (usize, &mut ShortRows)| {
-            ask_ahead(triangles.mesh, order, group);
-            for (lane, id) in taken(order, group) {
-                triangles.lattice.pack(&triangles.mesh.corners(id as usize), rows, lane);
+        for_each_chunk(&mut short, TASK, &|task, groups| {
+            for (group, rows) in (task * TASK..).zip(groups) {
+                ask_ahead(triangles.mesh, order, group);
+                for (lane, id) in taken(order, group) {
+                    triangles.lattice.pack(&triangles.mesh.corners(id as usize), rows, lane);
+                }
             }
-        };
-        short.par_iter_mut().enumerate().with_min_len(LEAST).for_each(pack);
+        });
     } else {
         rows = filled(Row([f32::NAN; ROW]), groups * K::ROWS);
-        let pack = |(group, rows): (usize, &mut [Row])| {
-            ask_ahead(triangles.mesh, order, group);
-            for (lane, id) in taken(order, group) {
-                K::pack(&triangles.frame.corners(&triangles.corners(id)), rows, lane);
+        for_each_chunk(&mut rows, TASK * K::ROWS, &|task, rows| {
+            for (group, rows) in (task * TASK..).zip(rows.chunks_exact_mut(K::ROWS)) {
+                ask_ahead(triangles.mesh, order, group);
+                for (lane, id) in taken(order, group) {
+                    K::pack(&triangles.frame.corners(&triangles.corners(id)), rows, lane);
+                }
             }
-        };
-        rows.par_chunks_exact_mut(K::ROWS).enumerate().with_min_len(LEAST).for_each(pack);
+        });
     }
     TriangleBlocks { triangles: *triangles, rows, short, ids: Ids::new(order) }
 }

@@ -4,9 +4,9 @@ use super::field::Visit;
 use super::order::GROUP;
 use super::way::Way;
 use super::{Built, Cells, sort};
-use accel::parallel::prelude::*;
+use accel::parallel::for_each_chunk;
 use accel::{Count, Counters, Nearest, NoCount, Ray, RaySet};
-use lanes::{BLOCK, Blocks, PackedObjects, Simd, Task};
+use lanes::{BLOCK, Blocks, PackedObjects, Portable, Simd, Task};
 
 /// Rays for which the instruction set is chosen once.
 const BATCH: usize = 512;
@@ -125,14 +125,14 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
 }
 
 impl<O: PackedObjects> Built<O> {
-    fn batch<C: Count, const ANY: bool>(&self, rays: &[Ray], found: &mut [Nearest], count: &mut C) {
-        self.settings.simd.run(Batch::<_, _, ANY> { built: self, rays, found, count });
+    fn batch<const ANY: bool>(&self, rays: &[Ray], found: &mut [Nearest]) {
+        self.settings.simd.run(Batch::<_, _, ANY> { built: self, rays, found, count: &mut NoCount });
     }
 
     /// One ray.
     pub(super) fn nearest<const ANY: bool>(&self, ray: &Ray) -> Nearest {
         let mut found = [Nearest::new(ray.t_max)];
-        self.batch::<_, ANY>(std::slice::from_ref(ray), &mut found, &mut NoCount);
+        self.batch::<ANY>(std::slice::from_ref(ray), &mut found);
         found[0]
     }
 
@@ -146,15 +146,16 @@ impl<O: PackedObjects> Built<O> {
         assert_eq!(rays.len(), out.len(), "one place for each ray");
         match rays {
             RaySet::List(list) if self.sort && list.len() >= BATCH => {
-                out.par_chunks_mut(SORTED).zip(list.par_chunks(SORTED)).for_each(|(out, rays)| {
+                for_each_chunk(out, SORTED, &|chunk, out| {
+                    let rays = &list[chunk * SORTED..][..out.len()];
                     self.in_order::<ANY, _>(rays, out, &of);
                 });
             }
-            _ => out.par_chunks_mut(BATCH).enumerate().with_min_len(8).for_each(|(batch, out)| {
+            _ => for_each_chunk(out, BATCH, &|batch, out| {
                 let mut made = Vec::new();
                 let own = slice(rays, batch * BATCH, out.len(), &mut made);
                 let mut found = [Nearest::new(0.0); BATCH];
-                self.batch::<_, ANY>(own, &mut found[..out.len()], &mut NoCount);
+                self.batch::<ANY>(own, &mut found[..out.len()]);
                 for (out, nearest) in out.iter_mut().zip(&found) {
                     *out = of(nearest);
                 }
@@ -170,7 +171,7 @@ impl<O: PackedObjects> Built<O> {
         for numbers in order.chunks(BATCH) {
             own.clear();
             own.extend(numbers.iter().map(|number| rays[*number as usize]));
-            self.batch::<_, ANY>(&own, &mut found[..own.len()], &mut NoCount);
+            self.batch::<ANY>(&own, &mut found[..own.len()]);
             for (number, nearest) in numbers.iter().zip(&found) {
                 out[*number as usize] = of(nearest);
             }
@@ -184,7 +185,9 @@ impl<O: PackedObjects> Built<O> {
         for first in (0..rays.len()).step_by(BATCH) {
             let own = slice(rays, first, BATCH.min(rays.len() - first), &mut made);
             let mut found = [Nearest::new(0.0); BATCH];
-            self.batch::<_, ANY>(own, &mut found[..own.len()], &mut counters);
+            let found = &mut found[..own.len()];
+            // The same steps at every level: one is enough.
+            Batch::<_, _, ANY> { built: self, rays: own, found, count: &mut counters }.run(Portable);
         }
         counters
     }
