@@ -2,6 +2,8 @@
 
 use accel::{Accel, Hit, Need, RaySet, Scene};
 use criterion::{Criterion, Throughput};
+use harness::measure::memory_rows;
+use harness::record::Layout;
 use harness::registry::{self, Choice};
 use scenes::rays::{RaysId, RaysSpec, generate};
 use std::hint::black_box;
@@ -10,10 +12,17 @@ use std::time::Duration;
 /// The small fixed set of scenes.
 pub const SCENES: [&str; 2] = ["small-10k", "bumps-20k"];
 
+/// Scenes of the paper's size, for structures whose time grows with the number of objects.
+pub const PAPER_SCENES: [&str; 2] = ["boxes-1000-25", "small-1k"];
+
 /// Structures whose time does not grow with the number of objects.
 pub fn structures() -> Vec<Choice> {
-    let all = registry::defaults().into_iter().map(|spec| registry::choose(&spec));
-    all.filter_map(Result::ok).filter(|choice| !choice.entry.traits.linear).collect()
+    all_structures().into_iter().filter(|choice| !choice.entry.traits.linear).collect()
+}
+
+/// All structures of the default comparison, `bmssm-dense`, `minmax` and `sphere` among them.
+pub fn all_structures() -> Vec<Choice> {
+    registry::defaults().iter().filter_map(|spec| registry::choose(spec).ok()).collect()
 }
 
 /// A scene of the suite.
@@ -51,13 +60,31 @@ pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     pool.install(work)
 }
 
-/// Benches nearest hits of every structure and ray set over [`SCENES`], in rays per second.
+/// Says how large a scene is and what the paper compares: ν_mem, the bytes of the uniform grid over the bytes of the
+/// bit maps at the same number of slices.
+pub fn introduce(scene: &Scene) {
+    let (objects, kind) = (scene.geometry.len(), scene.geometry.kind());
+    println!("{}: {objects} {kind}", scene.id);
+    for row in memory_rows(scene, &[16, 64]) {
+        let built = |layout: Option<Layout>| layout.map_or("–".to_owned(), |l| format!("{:.3}", l.ratio()));
+        println!(
+            "  ν_mem at N = {}: {:.3} by formula, {} for the paper's layouts as built, {} for the compact ones",
+            row.resolution,
+            row.formula_4_byte.ratio(),
+            built(row.paper_layouts),
+            built(row.compact_layouts)
+        );
+    }
+}
+
+/// Benches nearest hits of structures on ray sets of scenes, in rays per second.
 ///
 /// # Panics
 /// If a scene has no such rays.
-pub fn trace(c: &mut Criterion, sets: &[RaysId]) {
-    for id in SCENES {
+pub fn trace(c: &mut Criterion, scenes: &[&str], sets: &[RaysId], structures: &[Choice]) {
+    for id in scenes {
         let scene = scene(id);
+        introduce(&scene);
         for set in sets {
             let rays = rays(&scene, *set, 128);
             let mut hits: Vec<Option<Hit>> = vec![None; rays.len()];
@@ -65,8 +92,8 @@ pub fn trace(c: &mut Criterion, sets: &[RaysId]) {
             group.throughput(Throughput::Elements(rays.len() as u64));
             group.sample_size(10);
             group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
-            for choice in structures() {
-                let Some(accel) = build(&choice, &scene, &rays) else { continue };
+            for choice in structures {
+                let Some(accel) = build(choice, &scene, &rays) else { continue };
                 group.bench_function(choice.spec.to_string(), |b| {
                     on_one_thread(|| b.iter(|| accel.trace(&rays, black_box(&mut hits))));
                 });

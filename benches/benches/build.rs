@@ -2,14 +2,16 @@
 //! nothing else.
 
 use accel::{Need, RaySet};
-use benches::{SCENES, on_one_thread, rays, scene, structures};
+use benches::{PAPER_SCENES, SCENES, all_structures, on_one_thread, rays, scene, structures};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use scenes::rays::RaysId;
 use std::hint::black_box;
 use std::time::Duration;
 
 fn build(c: &mut Criterion) {
-    for id in SCENES {
+    let large = SCENES.map(|id| (id, structures()));
+    let small = PAPER_SCENES.map(|id| (id, all_structures()));
+    for (id, structures) in large.into_iter().chain(small) {
         let scene = scene(id);
         let RaySet::Raster(raster) = rays(&scene, RaysId::Parallel, 128) else { unreachable!("an image") };
         let mut group = c.benchmark_group(format!("build/{id}"));
@@ -18,7 +20,7 @@ fn build(c: &mut Criterion) {
             .sample_size(10)
             .warm_up_time(Duration::from_millis(300))
             .measurement_time(Duration::from_secs(1));
-        for choice in structures() {
+        for choice in structures {
             let need = if choice.entry.traits.lists { Need::GENERAL } else { Need::raster(raster) };
             if choice.builder.build(&scene, &need).is_ok() {
                 group.bench_function(choice.spec.to_string(), |b| {

@@ -1,11 +1,11 @@
 //! Rasters, in rays per second.
 
-use benches::trace;
+use benches::{SCENES, structures, trace};
 use criterion::{Criterion, criterion_group, criterion_main};
 use scenes::rays::RaysId;
 
 fn primary(c: &mut Criterion) {
-    trace(c, &[RaysId::Parallel, RaysId::Perspective]);
+    trace(c, &SCENES, &[RaysId::Parallel, RaysId::Perspective], &structures());
 }
 
 criterion_group!(benches, primary);

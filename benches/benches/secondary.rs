@@ -1,11 +1,11 @@
 //! Lists of rays, in rays per second.
 
-use benches::trace;
+use benches::{SCENES, structures, trace};
 use criterion::{Criterion, criterion_group, criterion_main};
 use scenes::rays::RaysId;
 
 fn secondary(c: &mut Criterion) {
-    trace(c, &[RaysId::Diffuse, RaysId::Random]);
+    trace(c, &SCENES, &[RaysId::Diffuse, RaysId::Random], &structures());
 }
 
 criterion_group!(benches, secondary);

@@ -1,41 +1,31 @@
-//! A structure of your own behind `Accel`, held to brute force: objects sorted by how far along x
+//! A structure of your own, registered and held to brute force as the suite's own are: objects sorted by where along x
 //! their boxes begin, so that a ray need not look at those that begin beyond its end.
 //!
 //! `cargo run --release --example own_structure`
 
-use accel::{Accel, Builder, Footprint, Geometry, Hit, Mesh, Nearest, Need, Objects, Ray};
-use baselines::Brute;
-use primitives::KernelId;
-use primitives::Triangles;
-use scenes::rays;
+use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Need, Objects, Ray, Scene};
+use harness::registry::{Choice, Entry, KERNEL, Traits};
+use harness::sweeps::differences::{self, Sweep};
+use lanes::PackedObjects;
+use primitives::{KernelId, WithObjects, with_objects};
+use scenes::rays::RaysId;
 use std::error::Error;
 
-struct Sorted<'s> {
-    objects: Triangles<'s, primitives::kernel::MollerTrumbore>,
-    order: Vec<(f32, u32)>, // the least x of an object's box, and the object; ascending
+struct Sorted<O> {
+    objects: O,
+    order: Vec<(f32, u32)>, // where an object's box begins, and the object; ascending
 }
 
-impl<'s> Sorted<'s> {
-    fn new(mesh: &'s Mesh) -> Self {
-        let objects = Triangles::new(mesh);
-        let mut order: Vec<_> = (0..objects.len() as u32).map(|id| (objects.bounds(id).min.x, id)).collect();
-        order.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Self { objects, order }
-    }
-}
-
-impl Accel for Sorted<'_> {
+impl<O: Objects> Accel for Sorted<O> {
     fn closest(&self, ray: &Ray) -> Option<Hit> {
         // A ray that runs towards lesser x never gets beyond its origin.
         let backward = ray.direction.x <= 0.0 && ray.t_min >= 0.0;
         let reach = if backward { ray.origin.x } else { f32::INFINITY };
-        let mut nearest = Nearest::new(ray.t_max);
+        let mut best = Nearest::new(ray.t_max);
         for (_, id) in self.order.iter().take_while(|(x, _)| *x <= reach) {
-            if let Some(surface) = self.objects.intersect(*id, ray, nearest.t) {
-                nearest.offer(*id, surface);
-            }
+            self.objects.closest(*id, ray, &mut best);
         }
-        nearest.hit()
+        best.hit()
     }
 
     fn footprint(&self) -> Footprint {
@@ -43,18 +33,55 @@ impl Accel for Sorted<'_> {
     }
 }
 
+struct Sort(KernelId);
+
+impl Builder for Sort {
+    fn id(&self) -> &str {
+        "sorted"
+    }
+
+    fn settings(&self) -> String {
+        format!("kernel={}", self.0)
+    }
+
+    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        Ok(with_objects(scene, self.0, Sort(self.0)))
+    }
+}
+
+impl<'s> WithObjects<'s> for Sort {
+    type Out = Box<dyn Accel + 's>;
+
+    fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
+        let mut order: Vec<_> = (0..objects.len() as u32).map(|id| (objects.bounds(id).min.x, id)).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Box::new(Sorted { objects, order })
+    }
+}
+
+/// In the suite this stands in `crates/harness/src/registry/entries.rs`.
+static ENTRY: Entry = Entry {
+    id: "sorted",
+    description: "objects sorted along x",
+    source: "",
+    version: || "0.1.0".to_owned(),
+    settings: &[KERNEL],
+    traits: Traits { linear: true, ..Traits::BUILT_IN },
+    variants: &["kernel=watertight"],
+    make: |settings| Ok(Box::new(Sort(settings.kernel()?))),
+};
+
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let scene = scenes::load(&"small-1k".parse()?)?;
-    let Geometry::Triangles(mesh) = &scene.geometry else { return Err("a scene of triangles".into()) };
-    let own = Sorted::new(mesh);
-    let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Need::GENERAL)?;
-    let spec = rays::RaysSpec { id: rays::RaysId::Random, rows: 32, cols: 32, seed: 1 };
-    let rays = rays::generate(&scene, &spec, brute.as_ref())?;
-    let (mut hits, mut expected) = (vec![None; rays.len()], vec![None; rays.len()]);
-    own.trace(&rays, &mut hits);
-    brute.trace(&rays, &mut expected);
-    assert_eq!(hits, expected, "a structure loses and invents nothing");
-    println!("{} rays agree; {} bytes", hits.len(), own.footprint().total());
+    let choices =
+        [Choice::of(&ENTRY, &"sorted".parse()?)?, Choice::of(&ENTRY, &"sorted:kernel=exact".parse()?)?];
+    let scenes = ["small-1k", "boxes-100-40", "unit-equal", "unit-flat"].map(str::to_owned).to_vec();
+    let rays = RaysId::ALL.to_vec();
+    let sweep = Sweep { scenes, rays, size: 16, seed: 1, rays_each: 0, tests: 1 << 22 };
+    let tally = differences::run(&sweep, &choices, ())?;
+    for row in &tally.structures {
+        println!("{}: {} rays, {} differ from brute force", row.structure, row.rays, row.differences);
+    }
+    assert!(tally.is_sound(), "{:?}", tally.findings);
     Ok(())
 }

@@ -12,7 +12,7 @@ macro_rules! examples {
         fn $name() {
             $name::main().unwrap_or_else(|error| panic!("{error}"));
             let lines = include_str!($path).lines().count();
-            assert!(lines <= 60, "{lines} lines");
+            assert!(lines <= 90, "{lines} lines");
         }
     )*};
 }

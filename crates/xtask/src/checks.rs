@@ -6,6 +6,7 @@ use std::process::{Command, ExitCode, Stdio};
 use crate::places::Places;
 use crate::setup::Ready;
 use crate::shell::{cargo, output};
+use crate::structure;
 use crate::tally::Tally;
 
 /// What must build and pass on a machine without Embree or any C++.
@@ -20,7 +21,7 @@ pub const CORE: [&str; 7] = [
 ];
 
 /// The packages that link with Embree.
-const ADAPTER: [&str; 2] = ["rayscale-adapter-embree", "embree4-sys"];
+pub const ADAPTER: [&str; 2] = ["rayscale-adapter-embree", "embree4-sys"];
 
 type Step<'a> = (&'a str, &'a dyn Fn(&mut Tally) -> Result<(), String>);
 
@@ -39,8 +40,9 @@ pub fn run(places: &Places, ready: &Ready) -> ExitCode {
         }
         command
     };
-    let steps: [Step; 6] = [
+    let steps: [Step; 7] = [
         ("formatting", &|_| succeed(here("fmt").args(["--all", "--check"]))),
+        ("structure", &|_| structure::examine(&places.root)?.verdict()),
         ("lints", &|_| {
             let mut command = workspace("clippy");
             succeed(command.args(["--all-targets", "--", "-D", "warnings"]))

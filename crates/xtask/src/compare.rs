@@ -1,10 +1,11 @@
-//! `cargo xtask compare`: builds the suite and runs it.
+//! `cargo xtask compare`: builds the suite for this machine and runs it.
 
 use std::process::ExitCode;
 
+use crate::native::for_this_machine;
 use crate::places::Places;
 use crate::setup::Ready;
-use crate::shell::cargo;
+use crate::shell::{cargo, run_to_end};
 
 /// Runs `rayscale compare ARGS` in the checkout; its exit code is this one's.
 pub fn run(places: &Places, ready: &Ready, args: &[String]) -> ExitCode {
@@ -13,15 +14,6 @@ pub fn run(places: &Places, ready: &Ready, args: &[String]) -> ExitCode {
     if !ready.embree {
         command.arg("--no-default-features");
     }
-    command.args(["--", "compare"]).args(args);
-    match command.status() {
-        Ok(status) => {
-            let code = status.code().and_then(|code| u8::try_from(code).ok());
-            ExitCode::from(code.unwrap_or(1))
-        }
-        Err(e) => {
-            eprintln!("xtask: cargo cannot be run: {e}");
-            ExitCode::FAILURE
-        }
-    }
+    for_this_machine(&mut command, places).args(["--", "compare"]).args(args);
+    run_to_end(&mut command)
 }

@@ -3,6 +3,7 @@
 //! ```text
 //! cargo xtask setup             find or install Embree 4, fetch the real meshes
 //! cargo xtask compare [ARGS]    set up, then `rayscale compare ARGS`
+//! cargo xtask bench [ARGS]      set up, then the criterion benches
 //! cargo xtask test              set up, then every check of the workspace
 //! cargo xtask structure         which crates and modules import which, and that there is no cycle
 //! cargo xtask aarch64           the structures' tests with NEON, emulated if need be
@@ -10,11 +11,13 @@
 #![forbid(unsafe_code)]
 
 mod aarch64;
+mod bench;
 mod checks;
 mod compare;
 mod embree;
 mod host;
 mod meshes;
+mod native;
 mod pip;
 mod places;
 mod setup;
@@ -30,7 +33,8 @@ usage: cargo xtask <command>
 
   setup [MESH…]     find Embree 4 or install it; fetch the real meshes, the large ones only if named
                     or with --all
-  compare [ARGS]    set up, build, then run `rayscale compare ARGS`
+  compare [ARGS]    set up, build for this machine, then run `rayscale compare ARGS`
+  bench [ARGS]      set up, then `cargo bench --workspace ARGS`, built for this machine
   test              set up, then formatting, lints, tests, documentation
   structure         list which crates and modules import which; fail on a cycle
   aarch64           the tests of the contract and the structures for aarch64, emulated on other processors
@@ -55,6 +59,10 @@ fn main() -> ExitCode {
         },
         ("compare", _) => match setup::run(&places, Wanted::Usual) {
             Ok(ready) => compare::run(&places, &ready, &rest),
+            Err(why) => fail(&format!("set-up failed: {why}")),
+        },
+        ("bench", _) => match setup::run(&places, Wanted::Usual) {
+            Ok(ready) => bench::run(&places, &ready, &rest),
             Err(why) => fail(&format!("set-up failed: {why}")),
         },
         ("test", true) => match setup::run(&places, Wanted::Usual) {

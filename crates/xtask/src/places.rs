@@ -32,6 +32,13 @@ impl Places {
         self.setup.join("embree-missing.txt")
     }
 
+    /// Where programs compiled for this machine go.
+    pub fn native_target(&self) -> PathBuf {
+        let target =
+            std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| self.root.join("target"), PathBuf::from);
+        target.join("native")
+    }
+
     /// The fetched meshes and their `status.txt`.
     pub fn meshes(&self) -> PathBuf {
         self.setup.join("meshes")

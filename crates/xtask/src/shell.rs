@@ -1,7 +1,7 @@
 //! Running other programs.
 
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitCode, Stdio};
 
 /// Runs a program quietly and returns its standard output.
 ///
@@ -18,6 +18,20 @@ pub fn output(command: &mut Command) -> Result<String, String> {
     tail.drain(..tail.len().saturating_sub(2));
     let tail: String = tail.join(" / ").chars().take(300).collect();
     Err(format!("{name} failed ({}): {tail}", done.status))
+}
+
+/// Runs cargo and hands on its exit code.
+pub fn run_to_end(command: &mut Command) -> ExitCode {
+    match command.status() {
+        Ok(status) => {
+            let code = status.code().and_then(|code| u8::try_from(code).ok());
+            ExitCode::from(code.unwrap_or(1))
+        }
+        Err(e) => {
+            eprintln!("xtask: cargo cannot be run: {e}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// Whether a program can be started at all.

@@ -97,6 +97,16 @@ pub struct Choice {
 }
 
 impl Choice {
+    /// A structure that need not be among [`entries`].
+    ///
+    /// # Errors
+    /// Unknown settings and bad values.
+    pub fn of(entry: &'static Entry, spec: &StructureSpec) -> Result<Self, RegistryError> {
+        let kernel = ChosenKernel::of(entry, spec);
+        let builder = kernel.builder(entry, spec)?;
+        Ok(Self { spec: spec.clone(), entry, kernel, builder })
+    }
+
     /// The name of the ray-triangle test: one of the suite's, `own` for a foreign structure's, or `auto` while
     /// it is not decided.
     pub fn kernel(&self) -> &'static str {
@@ -139,10 +149,7 @@ pub fn find(id: &str) -> Result<&'static Entry, RegistryError> {
 /// # Errors
 /// Unknown or absent structures, unknown settings, bad values: [`RegistryError`].
 pub fn choose(spec: &StructureSpec) -> Result<Choice, RegistryError> {
-    let entry = find(&spec.id)?;
-    let kernel = ChosenKernel::of(entry, spec);
-    let builder = kernel.builder(entry, spec)?;
-    Ok(Choice { spec: spec.clone(), entry, kernel, builder })
+    Choice::of(find(&spec.id)?, spec)
 }
 
 /// As [`choose`], from text.

@@ -26,6 +26,7 @@ mod expansion;
 mod quotient;
 mod reject;
 mod signs;
+mod triple;
 
 #[cfg(test)]
 mod tests;

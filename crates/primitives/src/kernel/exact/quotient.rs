@@ -1,8 +1,8 @@
 //! t without error, as a quotient of two exact sums.
 
 use super::expansion::{Expansion, sign};
-use super::signs::MINORS;
-use accel::{Corners, Ray, Vec3};
+use super::triple::triple;
+use accel::{Corners, Ray};
 use std::cmp::Ordering;
 
 /// Terms of a scaled t: four triple products of six products in two parts each.
@@ -122,14 +122,4 @@ impl Quotient {
 /// The sign of a quotient from those of its parts.
 fn turned(numerator: Ordering, denominator: Ordering) -> Ordering {
     if denominator.is_lt() { numerator.reverse() } else { numerator }
-}
-
-/// Adds a·(b×c), each of six products of `f32` in two parts.
-pub(super) fn triple<const N: usize>(sum: &mut Expansion<N>, a: Vec3, b: Vec3, c: Vec3) {
-    for [i, j, k] in MINORS {
-        for (x, y, z) in [(a[i], b[j], c[k]), (-a[i], b[k], c[j])] {
-            // The product of two is exact.
-            sum.add_product(f64::from(x), f64::from(y) * f64::from(z));
-        }
-    }
 }

@@ -3,7 +3,7 @@
 //! Crates of geometric predicates take differences of points only; a ray's direction is none.
 
 use super::expansion::{Expansion, sign, two_product, two_sum};
-use super::quotient::triple;
+use super::triple::{MINORS, triple};
 use accel::{Corners, Ray, Vec3};
 use std::cmp::Ordering;
 
@@ -91,9 +91,6 @@ fn difference(p: Vec3, q: Vec3) -> Option<[f64; 3]> {
     }
     Some(result)
 }
-
-/// The axes of the three minors of a triple product, each after that of its factor.
-pub(super) const MINORS: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
 
 /// The minor whose factor is the only one that isn't zero: rays along an axis meet corners and edges most often.
 fn only_minor(d: [f64; 3]) -> Option<[usize; 3]> {
