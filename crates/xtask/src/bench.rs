@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use crate::checks::ADAPTER;
 use crate::native::for_this_machine;
 use crate::places::Places;
 use crate::setup::Ready;
@@ -12,13 +13,7 @@ pub fn run(places: &Places, ready: &Ready, args: &[String]) -> ExitCode {
     let mut command = cargo();
     command.current_dir(&places.root).args(["bench", "--workspace"]);
     if !ready.embree {
-        command.args([
-            "--no-default-features",
-            "--exclude",
-            "rayscale-adapter-embree",
-            "--exclude",
-            "embree4-sys",
-        ]);
+        command.arg("--no-default-features").args(ADAPTER.map(|package| format!("--exclude={package}")));
     }
     run_to_end(for_this_machine(&mut command, places).args(args))
 }
