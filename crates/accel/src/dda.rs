@@ -3,10 +3,7 @@
 //! of summed up, so that its error does not grow with the number of steps.
 
 use crate::grid::{Grid, Segment};
-
-/// A component of a segment below which the walk takes it for parallel to the slices; it
-/// moves less than the margin of [`crate::grid`] on its whole way.
-const PARALLEL: f32 = 1.0 / (1 << 23) as f32;
+use crate::tolerance::PARALLEL;
 
 /// A cell on a ray's way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +43,7 @@ impl Walk {
             enter: 0.0,
             next: [f32::INFINITY; 3],
             start,
-            inverse: delta.map(|d| if d.abs() < PARALLEL { 0.0 } else { 1.0 / d }),
+            inverse: delta.map(|d| if d.abs() < PARALLEL as f32 { 0.0 } else { 1.0 / d }),
             thickness: resolution.map(|n| 1.0 / n as f32),
             last: resolution.map(|n| n - 1),
             done: false,

@@ -5,11 +5,10 @@
 //! more than the rounding of a walk through the grid ([`crate::dda`]): whatever cell
 //! the exact ray meets a box in, the walk visits one in which the box is registered.
 
+pub use crate::tolerance::GRID_MARGIN as MARGIN;
+use crate::tolerance::{LIMIT_S, LIMIT_T, T_SLACK};
 use crate::{Aabb, Ray, Vec3};
 use std::ops::Range;
-
-/// By how much boxes are registered wider, in units of the grid's extent on that axis.
-pub const MARGIN: f64 = 1.0 / (1 << 18) as f64;
 
 /// A box divided into `resolution[a]` slices of equal thickness along each axis a.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,8 +103,8 @@ impl Grid {
         let (near, far) = self.bounds.overlap(ray.origin, ray.direction)?;
         let t_start = near.max(f64::from(ray.t_min));
         let t_end = far.min(f64::from(ray.t_max));
-        // The law of objects lets a hit lie a little outside of its box's range of t.
-        let slack = crate::tolerance::T_SLACK * t_start.abs().max(t_end.abs());
+        // A hit may lie a little outside of its box's range of t.
+        let slack = T_SLACK * t_start.abs().max(t_end.abs());
         if t_start > t_end + slack {
             return None;
         }
@@ -125,14 +124,19 @@ impl Grid {
 impl Segment {
     /// An upper bound of the place s up to which objects must be looked at, when a hit at
     /// `t` is known: what begins behind it can't come before that hit.
-    #[inline]
+    #[inline(always)]
     pub fn limit(&self, t: f32) -> f32 {
+        self.limit_with(t, LIMIT_T, LIMIT_S)
+    }
+
+    #[inline(always)]
+    pub(crate) fn limit_with(&self, t: f32, limit_t: f64, limit_s: f64) -> f32 {
         let t = f64::from(t);
         if t == f64::INFINITY || self.t_span == 0.0 {
             return f32::INFINITY;
         }
-        let slack = 2.0 * crate::tolerance::T_SLACK * t.abs();
-        (((t - self.t_start + slack) / self.t_span) as f32) * (1.0 + 4.0 * f32::EPSILON) + 4.0 * MARGIN as f32
+        let slack = limit_t * t.abs();
+        (((t - self.t_start + slack) / self.t_span) as f32) * (1.0 + 4.0 * f32::EPSILON) + limit_s as f32
     }
 }
 

@@ -7,7 +7,7 @@ use crate::{Aabb, Nearest, Ray, Surface};
 /// The objects of a scene, of any kind: a structure needs their boxes and a detail test
 /// (Skala 1993, §1, §7).
 ///
-/// # The law
+/// # The hit-in-padded-bounds invariant
 /// `intersect` reports a hit at t only if the ray's line meets `bounds(id)` and t lies in
 /// the range of that meeting, give or take [`T_SLACK`]`·|t|`. The boxes are padded so that no hit worth having is
 /// refused. A structure that never loses an object whose box a ray meets therefore

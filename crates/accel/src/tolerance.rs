@@ -1,23 +1,89 @@
-//! The bounds that together guarantee that no hit is lost.
+//! The bounds that together guarantee that no hit is lost, in order, each derived from those before it.
+//!
+//! What is guaranteed: a hit that an intersector reports, and that satisfies the *hit-in-padded-bounds invariant* of
+//! [`crate::Objects`], is found by every structure. ε is 2^-24, by which `f32` rounds relatively; E is the longest
+//! extent of the scene. A change of one of them that breaks a link of the chain doesn't compile, or fails a test
+//! that plants one that is too small.
 
 use crate::{Aabb, Ray};
 
-/// Relative slack of t that [`crate::Objects`] allows for.
-pub const T_SLACK: f64 = 1.0 / (1 << 20) as f64;
+/// ε
+const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 
-/// The padding of boxes: large against the rounding of a hit's position in `f32`, small
-/// against anything seen in an image.
+/// **1.** A ray is *near* if its origin is within this many E of the scene's centre, on each axis. Its hits are at
+/// most 4.5 E from the origin on each axis; rounding t, the relative origin, the product and the sum moves a hit's
+/// position by 15 ε·E in all.
+pub const NEAR: f32 = 4.0;
+
+/// **2.** Objects' boxes are padded by this part of E: large against the rounding of a hit's position, small against
+/// anything seen in an image. Half of it covers four times the 15 ε·E of near rays (1), so their certain hits satisfy the
+/// invariant without a test.
+pub const PAD: f32 = 1.0 / (1 << 17) as f32;
+const _: () = assert!(4.0 * 15.0 * ROUNDING <= PAD as f64 / 2.0);
+
+/// **3.** A hit's t may lie outside the ray's way through the padded box by this part of itself: 16 times the rounding
+/// of t, which is all that there is far away, where it exceeds the padding (2).
+pub const T_SLACK: f64 = 1.0 / (1 << 20) as f64;
+const _: () = assert!(T_SLACK >= 16.0 * ROUNDING);
+
+/// **4.** Structures register padded boxes (2) wider by this part of the grid's extent on each axis. In these units a
+/// segment's two ends, its steps and the planes it meets are each off by ε or 2 ε, some eight of them: this is eight
+/// times as much, so whatever cell the exact ray meets the box in, the walk visits one in which it is registered.
+pub const GRID_MARGIN: f64 = 1.0 / (1 << 18) as f64;
+const _: () = assert!(GRID_MARGIN >= 8.0 * 8.0 * ROUNDING);
+
+/// **5.** A component of a segment below this is taken for none, or for this much, so that its reciprocal is finite.
+/// That moves points by as much, which the margin (4) covers beside the rounding.
+pub const PARALLEL: f64 = 1.0 / (1 << 23) as f64;
+const _: () = assert!(PARALLEL + 8.0 * 2.0 * ROUNDING <= GRID_MARGIN / 2.0);
+
+/// **6.** The compact grid maps segments into itself shrunk by this on each side, so that no point lies on an outer
+/// plane. It moves points by as much, which the margin (4) covers beside (5) and the rounding.
+pub const INSET: f64 = 1.0 / (1 << 20) as f64;
+const _: () = assert!(INSET + PARALLEL + 8.0 * 2.0 * ROUNDING <= GRID_MARGIN);
+
+/// **7.** When a hit at t is known, objects that begin behind it by this part of t are still looked at: one slack (3)
+/// for an object that is hit before its box begins, and one for the known hit.
+pub const LIMIT_T: f64 = 2.0 * T_SLACK;
+
+/// **8.** And on top, in the s of a segment, which runs from 0 to 1: s is off by some ε where it comes from t, and by
+/// as much where a box's beginning is computed; the margin (4) many times over.
+pub const LIMIT_S: f64 = 4.0 * GRID_MARGIN;
+const _: () = assert!(LIMIT_S >= 64.0 * ROUNDING);
+
+/// **9.** In a block's maps, in slices: by how much the far end of each step along a path is shortened, so that
+/// rounding never makes a step touch three slices of a short axis. A block has eight slices, so positions in it are off
+/// by some eight ε.
+pub const TRIM: f32 = 1.0 / 128.0;
+const _: () = assert!(TRIM as f64 >= 64.0 * 8.0 * ROUNDING);
+
+/// **10.** In a block's maps, in slices: objects are registered wider by this. It makes up for the trim (9) and for
+/// the rounding within the block; that of the scene's unit coordinates is covered by their margin (4), by which the boxes
+/// have been widened before.
+pub const LOCAL_MARGIN: f32 = 4.0 * TRIM;
+const _: () = assert!(LOCAL_MARGIN >= 2.0 * TRIM);
+
+/// The padding of objects' boxes in a scene with these bounds ([`PAD`]).
 pub fn pad_of(bounds: &Aabb) -> f32 {
-    if bounds.is_empty() { 0.0 } else { bounds.extent().max_element() / (1 << 17) as f32 }
+    if bounds.is_empty() { 0.0 } else { bounds.extent().max_element() * PAD }
 }
 
-/// Whether a hit at `t` keeps the law for `bounds`.
+/// Whether a hit at `t` satisfies the hit-in-padded-bounds invariant for an object with these padded `bounds`: the
+/// ray's line meets them, and t lies in the range of that meeting give or take [`T_SLACK`].
 #[inline]
-pub fn lawful(bounds: &Aabb, ray: &Ray, t: f32) -> bool {
+pub fn holds(bounds: &Aabb, ray: &Ray, t: f32) -> bool {
+    holds_with(bounds, ray, t, T_SLACK)
+}
+
+#[inline(always)]
+fn holds_with(bounds: &Aabb, ray: &Ray, t: f32, slack: f64) -> bool {
     let Some((near, far)) = bounds.overlap(ray.origin, ray.direction) else {
         return false;
     };
     let t = f64::from(t);
-    let slack = T_SLACK * t.abs();
+    let slack = slack * t.abs();
     near - slack <= t && t <= far + slack
 }
+
+#[cfg(test)]
+mod tests;

@@ -55,7 +55,7 @@ fn check(id: &str, side: u32) -> usize {
                 for (i, hit) in reference.iter().enumerate() {
                     let ray = rays.ray(i);
                     let exact = oracle.closest(&ray);
-                    // The law of objects gives t a slack relative to itself: where t is less than the least
+                    // The hit-in-padded-bounds invariant gives t a slack relative to itself: where t is less than the least
                     // normal number, its rounding alone may exceed that.
                     if exact.as_ref().is_some_and(|(_, e)| denormal(e.t.to_f64())) {
                         continue;

@@ -1,7 +1,7 @@
 //! Objects of others' making.
 
 use accel::input::{InputError, check_extent};
-use accel::tolerance::{lawful, pad_of};
+use accel::tolerance::{holds, pad_of};
 use accel::{Aabb, Objects, Ray, Surface};
 use lanes::{OneByOne, PackedObjects};
 
@@ -55,7 +55,7 @@ impl<O: Objects> Objects for Guarded<'_, O> {
 
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         let hit = self.objects.intersect(id, ray, t_max)?;
-        let within = ray.t_min <= hit.t && hit.t <= t_max && lawful(&self.bounds(id), ray, hit.t);
+        let within = ray.t_min <= hit.t && hit.t <= t_max && holds(&self.bounds(id), ray, hit.t);
         within.then_some(hit)
     }
 }

@@ -2,12 +2,9 @@
 
 use super::item::Item;
 use super::unit_box::UnitBox;
-use lanes::path::{Path, SLICES, TRIM};
+use accel::tolerance::LOCAL_MARGIN;
+use lanes::path::{Path, SLICES};
 use lanes::{BLOCK, Simd};
-
-/// By how much objects are registered wider, in slices: more than the rounding of a walk within the
-/// block, and more than [`TRIM`].
-const LOCAL_MARGIN: f32 = 4.0 * TRIM;
 
 /// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be
 /// uniform (Skala 1993, abstract).

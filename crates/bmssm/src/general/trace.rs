@@ -3,6 +3,7 @@
 use super::General;
 use super::tree::{Node, WIDTH};
 use accel::grid::Segment;
+use accel::tolerance::LIMIT_S;
 use accel::{Count, Nearest, Ray};
 use lanes::{Blocks, PackedObjects, ROW, Simd};
 
@@ -115,7 +116,7 @@ impl<O: PackedObjects> General<O> {
         }
         let way = Way::new(&segment);
         let prepared = self.objects.one(ray);
-        let mut limit = 1.0 + 4.0 * accel::grid::MARGIN as f32;
+        let mut limit = 1.0 + LIMIT_S as f32;
         stack.len = 0;
         let mut next = Some(Waiting { enter: 0.0, exit: 1.0, what: 0 });
         while let Some(Waiting { enter, exit, what }) = next {

@@ -37,7 +37,7 @@ pub struct OracleTally {
     pub rays: u64,
     /// Rays of them that are aimed at edges and corners.
     pub aimed: u64,
-    /// Rays left out because t is less than the least normal `f32`: the law of objects may refuse such hits.
+    /// Rays left out because t is less than the least normal `f32`: the hit-in-padded-bounds invariant may refuse such hits.
     pub left_out: u64,
     /// By structure.
     pub structures: Vec<OracleRow>,

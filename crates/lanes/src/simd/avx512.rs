@@ -1,7 +1,8 @@
 //! Sixteen lanes of AVX-512.
 
-use super::path::{Path, SLICES, TRIM};
+use super::path::{Path, SLICES};
 use super::{Simd, Task};
+use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
 
 /// Proof that AVX-512 F, BW, DQ and VL are present: only [`run`] makes one.

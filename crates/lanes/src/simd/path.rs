@@ -1,5 +1,7 @@
 //! Bit maps along a straight path: the one operation on words that instruction sets do differently.
 
+use accel::tolerance::TRIM;
+
 /// Slices of each map.
 pub const SLICES: usize = 8;
 
@@ -17,10 +19,6 @@ pub struct Path {
     /// How it moves on the other axes.
     pub slope: [f32; 2],
 }
-
-/// By how much the far end of each step is shortened, so that rounding never makes a step touch
-/// three slices of a short axis. Whoever registers bits does so wider by more than this.
-pub const TRIM: f32 = 1.0 / 128.0;
 
 /// Union over the slices of the long axis of its word & (the at most two words touched on
 /// the second axis) & (those on the third).

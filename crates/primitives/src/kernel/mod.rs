@@ -117,8 +117,15 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
 
     /// What can be told of [`Kernel::triangles`] without a decision; by default nothing.
     #[inline(always)]
-    fn triangles_bounds<S: Simd>(s: S, ray: &Self::One, group: &[Row], at: usize, t_max: f32) -> Bounds<S> {
-        let _ = (ray, group, at, t_max);
+    fn triangles_bounds<S: Simd>(
+        s: S,
+        ray: &Self::One,
+        group: &[Row],
+        at: usize,
+        wanted: u32,
+        t_max: f32,
+    ) -> Bounds<S> {
+        let _ = (ray, group, at, wanted, t_max);
         Bounds::unknown(s)
     }
 

@@ -1,12 +1,12 @@
 //! What is known of a whole mesh when its triangles are tested.
 
 use crate::kernel::{store_rows, sub3};
-use accel::tolerance::{lawful, pad_of};
+use accel::tolerance::{NEAR, holds, pad_of};
 use accel::{Aabb, Common, Corners, Ray, Vec3};
 use lanes::packet::{Packet, Vec3Lanes};
 use lanes::{Row, Simd};
 
-/// What the law of [`accel::Objects`] needs to know of the whole mesh, and the scale at which
+/// What the hit-in-padded-bounds invariant of [`accel::Objects`] needs to know of the whole mesh, and the scale at which
 /// kernels see it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
@@ -41,10 +41,10 @@ impl Frame {
         }
         let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let scale = if normalised { scale_for(largest) } else { 1.0 };
-        Self { pad, center: bounds.center(), near: 4.0 * bounds.extent().max_element(), scale }
+        Self { pad, center: bounds.center(), near: NEAR * bounds.extent().max_element(), scale }
     }
 
-    /// Whether hits of rays from there that are in the triangle for certain, with t rounded correctly and normal, keep the law plainly:
+    /// Whether hits of rays from there that are in the triangle for certain, with t rounded correctly and normal, satisfy the hit-in-padded-bounds invariant plainly:
     /// on each axis the origin is at most 4.5 extents E from the first corner, and so is the hit. Rounding t, the relative origin, the
     /// product and the sum moves the position by 15E·2^-24 in all, a quarter of half the padding E·2^-17.
     #[inline(always)]
@@ -52,17 +52,17 @@ impl Frame {
         (origin - self.center).abs().max_element() <= self.near
     }
 
-    /// Whether a hit keeps the law of [`Objects`].
+    /// Whether a hit satisfies the hit-in-padded-bounds invariant.
     #[inline]
-    pub(super) fn lawful(&self, corners: &Corners, ray: &Ray, near: bool, t: f32) -> bool {
-        (near && self.plainly_lawful(corners, ray, t))
-            || lawful(&Aabb::of_points(*corners).padded(self.pad), ray, t)
+    pub(super) fn holds(&self, corners: &Corners, ray: &Ray, near: bool, t: f32) -> bool {
+        (near && self.plainly_holds(corners, ray, t))
+            || holds(&Aabb::of_points(*corners).padded(self.pad), ray, t)
     }
 
-    /// A cheaper test that implies `lawful` for near rays: the hit's position relative to the first corner,
+    /// A cheaper test that implies [`Frame::holds`] for near rays: the hit's position relative to the first corner,
     /// rounded, lies in the box padded by half.
     #[inline]
-    fn plainly_lawful(&self, corners: &Corners, ray: &Ray, t: f32) -> bool {
+    fn plainly_holds(&self, corners: &Corners, ray: &Ray, t: f32) -> bool {
         let Limits { first, low, high } = Limits::of(self, corners);
         let position = (ray.origin - first) + ray.direction * t;
         low.cmple(position).all() && position.cmple(high).all()
@@ -105,7 +105,7 @@ impl Frame {
     }
 }
 
-/// Within what a hit's position relative to the first corner, rounded, keeps the law plainly.
+/// Within what a hit's position relative to the first corner, rounded, satisfies the invariant plainly.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
     first: Vec3,
@@ -117,7 +117,7 @@ pub(super) struct Limits {
 pub(super) const LIMIT_ROWS: usize = 9;
 
 impl Limits {
-    /// Those of [`Frame::plainly_lawful`].
+    /// Those of [`Frame::plainly_holds`].
     #[inline(always)]
     pub(super) fn of(frame: &Frame, [a, b, c]: &Corners) -> Self {
         let half = Vec3::splat(frame.pad * 0.5);

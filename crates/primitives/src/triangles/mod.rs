@@ -97,7 +97,7 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
         let corners = self.corners(id);
         let frame = &self.frame;
         let surface = K::test(&K::one(&frame.ray(ray)), &frame.corners(&corners), t_max)?;
-        frame.lawful(&corners, ray, frame.is_near(ray.origin), surface.t).then_some(surface)
+        frame.holds(&corners, ray, frame.is_near(ray.origin), surface.t).then_some(surface)
     }
 
     #[inline]

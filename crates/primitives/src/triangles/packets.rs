@@ -11,8 +11,8 @@ use lanes::{Blocks, ROW, Row, Simd};
 const MOST_ROWS: usize = 16;
 
 impl<K: Kernel> TriangleBlocks<'_, K> {
-    /// Offers those lanes that keep the law: those that do plainly and whose origins are near, and
-    /// those of the others that the full test finds lawful.
+    /// Offers those lanes that satisfy the hit-in-padded-bounds invariant: those that do plainly and whose origins are near, and
+    /// those of the others that the full test lets pass.
     #[inline(always)]
     pub(super) fn offer<S: Simd>(
         &self,
@@ -28,15 +28,15 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         let mut open = hits & !plain;
         if open != 0 {
             let corners = self.corners_of(slot);
-            let mut lawful = hits & plain;
+            let mut kept = hits & plain;
             let rows = lanes.rows(s);
             while let Some(lane) = next_lane(&mut open) {
-                if self.triangles.frame.lawful(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t)
+                if self.triangles.frame.holds(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t)
                 {
-                    lawful |= 1 << lane;
+                    kept |= 1 << lane;
                 }
             }
-            lanes.hit = s.mask(lawful);
+            lanes.hit = s.mask(kept);
         }
         let object = self.ids.get(slot);
         if K::ORDERS_TIES {
@@ -72,7 +72,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     }
 
     /// Postpones the sure hits that certainly come before what is there, and decides those that may. Sure hits of near
-    /// rays keep the law, see [`Frame::is_near`].
+    /// rays satisfy the invariant, see [`Frame::is_near`].
     #[inline(always)]
     pub(super) fn postpone<S: Simd>(
         &self,
@@ -98,9 +98,10 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         open: u32,
         best: &mut NearestPacket<S>,
     ) {
-        self.settle_lanes(s, rays, open, best);
         let lanes = K::decide(s, &rays.prepared, self.packed(slot), slot % ROW, open, best.t);
-        if s.bits(lanes.hit) != 0 {
+        let hits = s.bits(lanes.hit);
+        if hits != 0 {
+            self.settle_lanes(s, rays, hits, best);
             let limits = Limits::of(&self.triangles.frame, &self.corners_of(slot));
             self.offer(s, slot, rays, &limits, lanes, best);
         }

@@ -26,7 +26,7 @@ fn next<S: Simd>(block: usize, mask: &mut u64) -> Option<Next> {
 }
 
 impl<K: Kernel> TriangleBlocks<'_, K> {
-    /// Calls `found` with every lawful hit among the set bits until it says to stop.
+    /// Calls `found` with every hit among the set bits that satisfies the hit-in-padded-bounds invariant until it says to stop.
     #[inline(always)]
     pub(super) fn visit<S: Simd>(
         &self,
@@ -48,7 +48,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             let rows = lanes.rows(s);
             while let Some(lane) = next_lane(&mut hits) {
                 let surface = rows.surface(lane);
-                if self.is_lawful(group, first + lane, ray, surface) {
+                if self.holds(group, first + lane, ray, surface) {
                     match found(self.ids.get(first + lane), surface) {
                         Some(limit) => t_max = limit,
                         None => return,
@@ -59,9 +59,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn is_lawful(&self, group: &[Row], slot: usize, ray: &TriangleRay<K::One>, surface: Surface) -> bool {
+    fn holds(&self, group: &[Row], slot: usize, ray: &TriangleRay<K::One>, surface: Surface) -> bool {
         let corners = self.corners(group, slot);
-        self.triangles.frame.lawful(&corners, &ray.ray, ray.near, surface.t)
+        self.triangles.frame.holds(&corners, &ray.ray, ray.near, surface.t)
     }
 
     #[inline(always)]
@@ -87,7 +87,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     ) {
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
             let group = self.packed(first);
-            let bounds = K::triangles_bounds(s, &ray.prepared, group, first % ROW, best.t);
+            let bounds = K::triangles_bounds(s, &ray.prepared, group, first % ROW, wanted, best.t);
             let mut open = s.bits(bounds.open) & wanted;
             if open == 0 {
                 continue;
@@ -112,25 +112,25 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         }
     }
 
-    /// Decides one test, and before it the hit postponed unless that comes after it for certain.
+    /// Decides one test, and where it hits the hit postponed too, unless that comes after it for certain.
     #[inline(always)]
     fn decide_one(&self, ray: &TriangleRay<K::One>, slot: usize, high: f32, best: &mut Nearest) {
-        let before = high < best.low();
-        if !before {
-            self.settle_one(ray, best);
-        }
         if let Some(surface) = self.decided(ray, slot, best.t) {
+            let before = high < best.low();
+            if !before {
+                self.settle_one(ray, best);
+            }
             self.offer_one(ray, self.ids.get(slot), surface, best);
         }
     }
 
-    /// The lawful hit on the triangle in a slot.
+    /// The hit on the triangle in a slot.
     #[inline(always)]
     fn decided(&self, ray: &TriangleRay<K::One>, slot: usize, t_max: f32) -> Option<Surface> {
         let group = self.packed(slot);
         let lanes = K::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, t_max);
         let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
-        (lanes.hit && self.is_lawful(group, slot, ray, surface)).then_some(surface)
+        (lanes.hit && self.holds(group, slot, ray, surface)).then_some(surface)
     }
 
     /// Decides the hit that is postponed, if it is.
@@ -156,7 +156,8 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         t_max: f32,
     ) -> bool {
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
-            let bounds = K::triangles_bounds(s, &ray.prepared, self.packed(first), first % ROW, t_max);
+            let bounds =
+                K::triangles_bounds(s, &ray.prepared, self.packed(first), first % ROW, wanted, t_max);
             let mut open = s.bits(bounds.open) & wanted;
             if open == 0 {
                 continue;

@@ -1,6 +1,6 @@
 use super::*;
 use crate::{Kernel, KernelId, WithKernel};
-use accel::tolerance::lawful;
+use accel::tolerance::holds;
 use accel::{Mesh, Vec3};
 use lanes::{BLOCK, Level, OneByOne, ROW, Task};
 use proptest::prelude::*;
@@ -68,7 +68,11 @@ impl WithKernel for Compare<'_> {
                     if let Some(surface) = objects.intersect(order[slot], ray, f32::INFINITY) {
                         objects.closest(order[slot], ray, &mut reference);
                         let bounds = objects.bounds(order[slot]);
-                        assert!(lawful(&bounds, ray, surface.t), "{:?} breaks the law on {ray:?}", K::ID);
+                        assert!(
+                            holds(&bounds, ray, surface.t),
+                            "{:?} breaks the invariant on {ray:?}",
+                            K::ID
+                        );
                     }
                 }
                 for found in [fast, plain].into_iter().flatten() {
@@ -82,10 +86,10 @@ impl WithKernel for Compare<'_> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// Blocks, packets and single tests agree, and the law holds, also for rays from far
+    /// Blocks, packets and single tests agree, and the hit-in-padded-bounds invariant holds, also for rays from far
     /// away, where hits are mostly rounding.
     #[test]
-    fn blocks_agree_with_single_tests_and_the_law_holds(
+    fn blocks_agree_with_single_tests_and_the_invariant_holds(
         corners in prop::collection::vec(prop::array::uniform3(point(1.0)), 1..52),
         origins in prop::collection::vec(prop_oneof![3 => point(2.0), 1 => point(1e7)], ROW..=ROW),
         aims in prop::collection::vec(point(1.0), ROW..=ROW),

@@ -2,17 +2,8 @@
 //! divisions, and prepared for walking.
 
 use accel::Ray;
-use accel::grid::{Grid, MARGIN};
-use accel::tolerance::T_SLACK;
-
-/// The way is mapped into the lattice of cells shrunk by this on each side: its points never
-/// lie on the outer planes, so the walk needs no test for the last slice. Small
-/// against the grid's own margin, which makes up for it.
-const INSET: f64 = 1.0 / (1 << 20) as f64;
-
-/// A component below which a way counts as parallel to the slices: it moves less than the grid's
-/// margin on its whole length.
-const PARALLEL: f64 = 1.0 / (1 << 23) as f64;
+use accel::grid::Grid;
+use accel::tolerance::{INSET, LIMIT_S, LIMIT_T, PARALLEL, T_SLACK};
 
 /// Ray and box count as meeting if they miss by so little, relatively: more than the
 /// rounding of a product with a reciprocal.
@@ -79,7 +70,7 @@ impl Frame {
             t_start = t_start.max(p.min(q));
             t_end = t_end.min(p.max(q));
         }
-        // The law of objects lets a hit lie a little outside of its box's range of t.
+        // The hit-in-padded-bounds invariant lets a hit lie a little outside of its box's range of t.
         let slack = (T_SLACK + TOUCH) * t_start.abs().max(t_end.abs());
         if t_start > t_end + slack {
             return None;
@@ -134,10 +125,10 @@ impl Way {
     #[inline(always)]
     pub fn limit(&self, t: f32) -> f32 {
         let t = f64::from(t);
-        let slack = 2.0 * T_SLACK * t.abs();
+        let slack = LIMIT_T * t.abs();
         let s = (t - self.t_start + slack) * self.inverse_span;
         // A way of no length: all of it.
-        if s.is_finite() { (s as f32) * (1.0 + 4.0 * f32::EPSILON) + 4.0 * MARGIN as f32 } else { 1.0 }
+        if s.is_finite() { (s as f32) * (1.0 + 4.0 * f32::EPSILON) + LIMIT_S as f32 } else { 1.0 }
     }
 
     /// Where the way leaves slices of 2^shift cells.

@@ -96,15 +96,23 @@ impl Kernel for Exact {
         wanted: u32,
         t_max: f32,
     ) -> Lanes<S> {
-        let bounds = Self::triangles_bounds(s, ray, group, at, t_max);
+        let bounds = Self::triangles_bounds(s, ray, group, at, wanted, t_max);
         Self::triangles_decided(s, ray, group, at, wanted & s.bits(bounds.open), t_max)
     }
 
     #[inline(always)]
-    fn triangles_bounds<S: Simd>(s: S, ray: &Spanned, group: &[Row], at: usize, t_max: f32) -> Bounds<S> {
+    fn triangles_bounds<S: Simd>(
+        s: S,
+        ray: &Spanned,
+        group: &[Row],
+        at: usize,
+        wanted: u32,
+        t_max: f32,
+    ) -> Bounds<S> {
         let rays = Packet::splat(s, &ray.ray);
         let length = s.load(&group[LENGTH_ROW].0[at..]);
-        reject::bounds(s, &rays, &ray.span.splat(s), load_corners(s, group, at), length, s.splat(t_max))
+        let span = ray.span.splat(s);
+        reject::bounds(s, &rays, &span, load_corners(s, group, at), length, wanted, s.splat(t_max))
     }
 
     #[inline(always)]
@@ -134,7 +142,8 @@ impl Kernel for Exact {
     #[inline(always)]
     fn bounds<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Bounds<S> {
         let length = s.splat(group[LENGTH_ROW].0[lane]);
-        reject::bounds(s, &rays.rays, &rays.span, splat_corners(s, group, lane), length, t_max)
+        let corners = splat_corners(s, group, lane);
+        reject::bounds(s, &rays.rays, &rays.span, corners, length, u32::MAX, t_max)
     }
 
     #[inline(always)]

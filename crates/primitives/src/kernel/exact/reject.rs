@@ -106,7 +106,7 @@ pub(super) fn length_of([a, b, c]: &Corners) -> f32 {
     edge1.abs().max(edge2.abs()).max_element()
 }
 
-/// What `f32` can tell of hits at t up to `t_max`. `length` is that of [`length_of`].
+/// What `f32` can tell of hits at t up to `t_max`, of the lanes `wanted`. `length` is that of [`length_of`].
 #[inline(always)]
 pub(super) fn bounds<S: Simd>(
     s: S,
@@ -114,6 +114,7 @@ pub(super) fn bounds<S: Simd>(
     span: &Span<S>,
     [a, b, c]: [Vec3Lanes<S>; 3],
     length: S::F,
+    wanted: u32,
     t_max: S::F,
 ) -> Bounds<S> {
     let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
@@ -128,7 +129,7 @@ pub(super) fn bounds<S: Simd>(
         length,
         distance: distance(s, from_a),
     };
-    known(s, ray, span, &parts, t_max)
+    known(s, ray, span, &parts, wanted, t_max)
 }
 
 /// Rows that [`prepare`] writes.
@@ -212,7 +213,7 @@ pub(super) fn bounds_prepared<S: Simd>(
             }
         }
     };
-    known(s, ray, span, &parts, t_max)
+    known(s, ray, span, &parts, u32::MAX, t_max)
 }
 
 #[inline(always)]
@@ -221,7 +222,14 @@ fn distance<S: Simd>(s: S, from_a: Vec3Lanes<S>) -> S::F {
 }
 
 #[inline(always)]
-fn known<S: Simd>(s: S, ray: &Packet<S>, span: &Span<S>, parts: &Parts<S>, t_max: S::F) -> Bounds<S> {
+fn known<S: Simd>(
+    s: S,
+    ray: &Packet<S>,
+    span: &Span<S>,
+    parts: &Parts<S>,
+    wanted: u32,
+    t_max: S::F,
+) -> Bounds<S> {
     let Parts { edge2, from_a, p, q, det, length, distance } = *parts;
     let u = dot3(s, from_a, p);
     let v = dot3(s, ray.direction, q);
@@ -237,7 +245,7 @@ fn known<S: Simd>(s: S, ray: &Packet<S>, span: &Span<S>, parts: &Parts<S>, t_max
     let greatest = s.max(s.max(u, v), w);
     // Certainly of different signs. What is beyond the bound is infinite or NaN and stays open.
     let missed = s.and(s.lt(least, minus_error), s.lt(error, greatest));
-    let open = s.mask(!s.bits(missed));
+    let open = s.mask(wanted & !s.bits(missed));
     if s.bits(open) == 0 {
         return Bounds { open, sure: open, low: zero, high: zero };
     }

@@ -1,0 +1,127 @@
+//! Each bound as it is loses nothing; one that is too small does.
+
+use super::*;
+use crate::dda::Walk;
+use crate::grid::Grid;
+use crate::{Corners, Vec3};
+use glam::DVec3;
+
+/// Numbers in [−1, 1) from a fixed seed.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1 << 23) as f32 - 1.0
+    }
+
+    fn point(&mut self) -> Vec3 {
+        Vec3::new(self.next(), self.next(), self.next())
+    }
+}
+
+/// A ray from within `reach` of the unit cube's half at a triangle in it, with the t of the hit rounded once.
+fn hit(numbers: &mut Numbers, reach: f32) -> Option<(Corners, Ray, f32)> {
+    let center = numbers.point() * 0.4;
+    let mut corners = [0, 1, 2].map(|_| center + numbers.point() * 0.1);
+    // Every other one lies in a plane of constant z, where its box is flat.
+    if numbers.next() < 0.0 {
+        corners = corners.map(|corner| Vec3::new(corner.x, corner.y, center.z));
+    }
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    let origin = numbers.point() * reach;
+    let direction = ((a + b + c) / 3.0 - origin.as_dvec3()).as_vec3();
+    let normal = (b - a).cross(c - a);
+    let (slope, d) = (normal.dot(direction.as_dvec3()), direction.as_dvec3());
+    let t = normal.dot(a - origin.as_dvec3()) / slope;
+    let at: DVec3 = origin.as_dvec3() + d * t;
+    let inside = |p: DVec3, q: DVec3| normal.dot((q - p).cross(at - p)) >= 0.0;
+    (slope.abs() > 1e-4 * normal.length() * d.length() && inside(a, b) && inside(b, c) && inside(c, a))
+        .then(|| (corners, Ray { t_min: f32::NEG_INFINITY, ..Ray::new(origin, direction) }, t as f32))
+}
+
+/// Hits of 20,000 that break the invariant with these bounds.
+fn broken(reach: f32, pad: f32, slack: f64) -> usize {
+    let mut numbers = Numbers(1);
+    let lost = |_: &usize| {
+        hit(&mut numbers, reach).is_some_and(|(corners, ray, t)| {
+            let bounds = Aabb::of_points(corners);
+            let padded = Aabb { min: bounds.min - pad, max: bounds.max + pad };
+            !holds_with(&padded, &ray, t, slack)
+        })
+    };
+    (0..20_000).filter(lost).count()
+}
+
+#[test]
+fn boxes_that_are_padded_too_little_refuse_hits() {
+    assert_eq!(broken(NEAR, PAD, 0.0), 0, "near rays need no slack of t");
+    assert!(broken(NEAR, 0.0, 0.0) > 100);
+}
+
+#[test]
+fn far_away_a_slack_of_t_too_small_refuses_hits() {
+    assert_eq!(broken(1e6, PAD, T_SLACK), 0);
+    assert!(broken(1e6, PAD, ROUNDING / 64.0) > 100);
+}
+
+/// Points of 3,000 rays past corners of a fine grid's cells that lie in no cell visited, the cells made wider by
+/// `margin`. They are taken between the planes that meet there, which rounding may put in another order.
+fn unvisited(margin: f64) -> usize {
+    let grid =
+        Grid::new(Aabb { min: Vec3::ZERO, max: Vec3::ONE }, [1 << 12; 3]).expect("a resolution in range");
+    let mut numbers = Numbers(2);
+    let mut lost = 0;
+    for _ in 0..3000 {
+        let corner = ((numbers.point() + 1.0) * 2048.0).floor() / 4096.0;
+        let origin = numbers.point() * 2.0;
+        let ray = Ray::new(origin, corner - origin);
+        let Some(segment) = grid.clip(&ray) else { continue };
+        let cells: Vec<_> = Walk::new(&grid, &segment).collect();
+        let mut planes = (corner.as_dvec3() - ray.origin.as_dvec3()) / ray.direction.as_dvec3();
+        planes.as_mut().sort_by(f64::total_cmp);
+        for t in [(planes.x + planes.y) / 2.0, (planes.y + planes.z) / 2.0] {
+            let point = ray.origin.as_dvec3() + ray.direction.as_dvec3() * t;
+            let holds = |slice: [u32; 3]| {
+                (0..3).all(|a| {
+                    let (low, high) = (f64::from(slice[a]) / 4096.0, (f64::from(slice[a]) + 1.0) / 4096.0);
+                    low - margin <= point[a] && point[a] <= high + margin
+                })
+            };
+            lost += usize::from(!cells.iter().any(|cell| holds(cell.slice)));
+        }
+    }
+    lost
+}
+
+#[test]
+fn a_margin_too_small_puts_boxes_where_no_walk_comes() {
+    assert_eq!(unvisited(GRID_MARGIN), 0);
+    assert!(unvisited(0.0) > 0);
+}
+
+/// Boxes whose beginning lies behind the limit of a hit that they may precede.
+fn behind(limit_t: f64, limit_s: f64) -> usize {
+    let grid = Grid::new(Aabb { min: Vec3::ZERO, max: Vec3::ONE }, [1; 3]).expect("a resolution in range");
+    let mut numbers = Numbers(3);
+    let mut lost = 0;
+    for _ in 0..20_000 {
+        let ray = Ray::new(numbers.point() * 1e3, numbers.point());
+        let ray = Ray { direction: Vec3::splat(0.5) + ray.direction * 0.4 - ray.origin, ..ray };
+        let Some(segment) = grid.clip(&ray) else { continue };
+        let (near, far) = grid.bounds().overlap(ray.origin, ray.direction).expect("it has been clipped");
+        let near = near.max(0.0);
+        // The known hit is reported at the t at which another box begins, rounded down.
+        let begins = near + (far - near) * f64::from(numbers.next().abs());
+        let t = (begins as f32).next_down();
+        let s = ((begins - near) / (far - near)) as f32;
+        lost += usize::from(s > segment.limit_with(t, limit_t, limit_s));
+    }
+    lost
+}
+
+#[test]
+fn a_limit_too_small_ends_before_an_object_that_comes_first() {
+    assert_eq!(behind(LIMIT_T, LIMIT_S), 0);
+    assert!(behind(0.0, 0.0) > 0);
+}
