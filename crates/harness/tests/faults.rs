@@ -12,7 +12,7 @@ use harness::registry::{Choice, ChosenKernel, Entry, Traits};
 use harness::sweeps::{differences, leaks, oracle};
 use lanes::packet::{Lanes, Packet};
 use lanes::{Level, PackedObjects, Row, Simd};
-use primitives::kernel::Watertight;
+use primitives::kernel::{Immediate, Unprepared, Watertight};
 use primitives::{Kernel, KernelId, Triangles};
 use scenes::rays::RaysId;
 use std::sync::Arc;
@@ -31,6 +31,8 @@ fn without_edges<S: Simd>(s: S, lanes: Lanes<S>) -> Lanes<S> {
 
 impl Kernel for OpenEdges {
     const ID: KernelId = KernelId::Watertight;
+    type Prepared = Unprepared;
+    type Deferral = Immediate;
     type One = <Watertight as Kernel>::One;
     type Many<S: Simd> = <Watertight as Kernel>::Many<S>;
 

@@ -75,7 +75,8 @@ fn unvisited(margin: f64) -> usize {
     for _ in 0..3000 {
         let corner = ((numbers.point() + 1.0) * 2048.0).floor() / 4096.0;
         let origin = numbers.point() * 2.0;
-        let ray = Ray::new(origin, corner - origin);
+        // The factor leaves a direction that is rounded.
+        let ray = Ray::new(origin, (corner - origin) * 0.7);
         let Some(segment) = grid.clip(&ray) else { continue };
         let cells: Vec<_> = Walk::new(&grid, &segment).collect();
         let mut planes = (corner.as_dvec3() - ray.origin.as_dvec3()) / ray.direction.as_dvec3();

@@ -2,7 +2,7 @@
 //! Journal of Computer Graphics Techniques 5(3), 2016: each triangle stores the affine map that takes
 //! it to the unit triangle, so that a test is a few products and one division.
 
-use super::{Corners, Kernel, KernelId, dot3};
+use super::{Corners, Immediate, Kernel, KernelId, Unprepared, dot3};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes};
 use lanes::{Row, Simd};
@@ -19,6 +19,8 @@ type MapRow<S> = (Vec3Lanes<S>, <S as Simd>::F);
 impl Kernel for BaldwinWeber {
     const ID: KernelId = KernelId::BaldwinWeber;
     const ROWS: usize = 12;
+    type Prepared = Unprepared;
+    type Deferral = Immediate;
     type One = Ray;
     type Many<S: Simd> = Packet<S>;
 

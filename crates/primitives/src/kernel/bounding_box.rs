@@ -1,7 +1,7 @@
 //! The paper's set Q before its detail tests (Skala 1993, §2–3): an object counts as hit where the ray meets its box.
 //! What is left of a ray's cost is the structure's, with six values an object instead of nine.
 
-use super::{Corners, Kernel, KernelId, load3, splat_row3};
+use super::{Corners, Immediate, Kernel, KernelId, Unprepared, load3, splat_row3};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use lanes::{Row, Scalar, Simd};
@@ -63,6 +63,8 @@ impl Kernel for BoundingBox {
     const ID: KernelId = KernelId::BoundingBox;
     /// The least and the greatest corner of the box.
     const ROWS: usize = 6;
+    type Prepared = Unprepared;
+    type Deferral = Immediate;
     type One = Slabs;
     type Many<S: Simd> = SlabsLanes<S>;
 

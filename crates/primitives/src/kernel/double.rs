@@ -1,7 +1,7 @@
 //! Möller and Trumbore's test in `f64`: the cheap way to be right nearly always.
 
 use super::wide::{OneRay, OneTriangle, Pairs, Products, RayRows};
-use super::{Kernel, KernelId};
+use super::{Immediate, Kernel, KernelId, Unprepared};
 use accel::Ray;
 use lanes::packet::{Lanes, Packet};
 use lanes::{ROW, Row, Simd};
@@ -21,6 +21,8 @@ pub struct Rays<S: Simd> {
 impl Kernel for Double {
     const ID: KernelId = KernelId::Double;
     const NORMALISED: bool = false;
+    type Prepared = Unprepared;
+    type Deferral = Immediate;
     type One = Ray;
     type Many<S: Simd> = Rays<S>;
 

@@ -3,29 +3,36 @@
 //! A kernel is written once, over the lanes of [`Simd`], and used in two ways: one ray
 //! against several triangles (lists of rays) and several rays against one triangle
 //! (rasters). Both, and the scalar form, give the same bits.
+//!
+//! A new kernel is a file with the few functions of [`Kernel`]. Two capabilities come on top where they pay: what is the
+//! same for all rays of an image is computed once ([`Preparation`]), and hits that are certain wait until the nearest is
+//! known ([`Deferral`]).
 
 mod baldwin_weber;
 mod bounding_box;
+mod deferral;
 mod double;
 mod exact;
 mod moller_trumbore;
+mod preparation;
 mod quantised;
 mod watertight;
 mod wide;
 
 pub use baldwin_weber::BaldwinWeber;
 pub use bounding_box::BoundingBox;
+pub use deferral::{Deferral, Immediate};
 pub use double::Double;
 pub use exact::Exact;
 pub use moller_trumbore::MollerTrumbore;
+pub use preparation::{Preparation, Unprepared};
 pub use quantised::Quantised;
 pub use watertight::Watertight;
 
 use accel::settings::none_of;
-use accel::{Common, Corners, Ray, Surface, Vec3};
-use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
+use accel::{Corners, Ray, Surface, Vec3};
+use lanes::packet::{Lanes, Packet, Vec3Lanes};
 use lanes::{ROW, Row, Scalar, Simd};
-use std::cmp::Ordering;
 
 /// A ray-triangle test.
 pub trait Kernel: Copy + Default + Send + Sync + 'static {
@@ -33,14 +40,17 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     const ID: KernelId;
     /// Rows of packed geometry for each group of [`ROW`] triangles.
     const ROWS: usize = 9;
-    /// Whether hits of different triangles at the same reported t need [`Kernel::order`]; otherwise their numbers decide.
-    const ORDERS_TIES: bool = false;
     /// Whether geometry of extreme size is scaled by a power of two before the kernel sees it, since its products
     /// of coordinates would under- or overflow.
     const NORMALISED: bool = true;
     /// Whether it sees corners rounded to 16 bits a coordinate, which are kept so and unpacked for a test. It then packs the nine
-    /// rows of corners and postpones nothing.
+    /// rows of corners and defers nothing.
     const QUANTISED: bool = false;
+    /// What is computed beforehand for rays with a point or a direction in common: the kernel itself if it implements
+    /// [`Preparation`], else [`Unprepared`].
+    type Prepared: Preparation<Self>;
+    /// What is known before a test is decided: the kernel itself if it implements [`Deferral`], else [`Immediate`].
+    type Deferral: Deferral<Self>;
     /// What is computed once for a ray.
     type One: Copy + Send + Sync;
     /// What is computed once for `LANES` rays.
@@ -77,122 +87,6 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
 
     /// `LANES` rays against the triangle in lane `lane` of a group, with t up to `t_max`.
     fn rays<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S>;
-
-    /// The order along the ray of the hits of two triangles that are reported at the same t; where equal,
-    /// the lower number comes first. Called only for kernels with [`Kernel::ORDERS_TIES`].
-    fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
-        let _ = (ray, a, b);
-        Ordering::Equal
-    }
-
-    /// Rows of values for each group that [`Kernel::prepare`] computes.
-    const PREPARED_ROWS: usize = 0;
-
-    /// Computes, for the triangles in lanes `at .. at + LANES` of a group, whatever is the same for all
-    /// rays with this in common.
-    #[inline(always)]
-    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
-        let _ = (s, common, group, at, rows);
-    }
-
-    /// [`Kernel::rays`] for rays with this in common, with the rows prepared for the group: the same
-    /// operations on the same operands, those that don't depend on the ray done before.
-    #[inline(always)]
-    fn rays_prepared<S: Simd>(
-        s: S,
-        rays: &Self::Many<S>,
-        common: &Common,
-        group: &[Row],
-        rows: &[Row],
-        lane: usize,
-        t_max: S::F,
-    ) -> Lanes<S> {
-        let _ = (common, rows);
-        Self::rays(s, rays, group, lane, t_max)
-    }
-
-    /// Whether [`Kernel::bounds`] tells enough, and for so much less than a decision, that hits are better decided when
-    /// the nearest is known. A sure hit must lie in the triangle and its t, once decided, be correctly rounded.
-    const POSTPONES: bool = false;
-
-    /// What can be told of [`Kernel::triangles`] without a decision; by default nothing.
-    #[inline(always)]
-    fn triangles_bounds<S: Simd>(
-        s: S,
-        ray: &Self::One,
-        group: &[Row],
-        at: usize,
-        wanted: u32,
-        t_max: f32,
-    ) -> Bounds<S> {
-        let _ = (ray, group, at, wanted, t_max);
-        Bounds::unknown(s)
-    }
-
-    /// [`Kernel::triangles`] for the lanes `open` only; the others hold no hit.
-    #[inline(always)]
-    fn triangles_decided<S: Simd>(
-        s: S,
-        ray: &Self::One,
-        group: &[Row],
-        at: usize,
-        open: u32,
-        t_max: f32,
-    ) -> Lanes<S> {
-        let lanes = Self::triangles(s, ray, group, at, open, t_max);
-        Lanes { hit: s.and(lanes.hit, s.mask(open)), ..lanes }
-    }
-
-    /// What can be told of [`Kernel::rays`] without a decision; by default nothing.
-    #[inline(always)]
-    fn bounds<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Bounds<S> {
-        let _ = (rays, group, lane, t_max);
-        Bounds::unknown(s)
-    }
-
-    /// [`Kernel::bounds`] for rays with this in common, with the rows prepared for the group.
-    #[inline(always)]
-    fn bounds_prepared<S: Simd>(
-        s: S,
-        rays: &Self::Many<S>,
-        common: &Common,
-        group: &[Row],
-        rows: &[Row],
-        lane: usize,
-        t_max: S::F,
-    ) -> Bounds<S> {
-        let _ = (common, rows);
-        Self::bounds(s, rays, group, lane, t_max)
-    }
-
-    /// [`Kernel::rays`] for the rays `open` only; the others hit nothing.
-    #[inline(always)]
-    fn decide<S: Simd>(
-        s: S,
-        rays: &Self::Many<S>,
-        group: &[Row],
-        lane: usize,
-        open: u32,
-        t_max: S::F,
-    ) -> Lanes<S> {
-        let lanes = Self::rays(s, rays, group, lane, t_max);
-        Lanes { hit: s.and(lanes.hit, s.mask(open)), ..lanes }
-    }
-
-    /// Each of the rays `open` against the triangle in its own lane of a group that [`Kernel::pack`] wrote, at any t of the
-    /// ray's range.
-    #[inline(always)]
-    fn settle<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], open: u32) -> Lanes<S> {
-        let mut rows = [[0.0; ROW]; 3];
-        let mut hits = 0;
-        for lane in (0..S::LANES).filter(|lane| open >> lane & 1 != 0) {
-            let ray = rays.ray(s, lane);
-            let one = Self::triangles(Scalar, &Self::one(&ray), group, lane, 1, ray.t_max);
-            hits |= u32::from(one.hit) << lane;
-            (rows[0][lane], rows[1][lane], rows[2][lane]) = (one.t, one.u, one.v);
-        }
-        Lanes { hit: s.mask(hits), t: s.load(&rows[0]), u: s.load(&rows[1]), v: s.load(&rows[2]) }
-    }
 
     /// One ray against one triangle.
     #[inline]

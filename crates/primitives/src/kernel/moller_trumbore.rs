@@ -1,7 +1,10 @@
 //! T. Möller, B. Trumbore, *Fast, Minimum Storage Ray/Triangle Intersection*,
 //! Journal of Graphics Tools 2(1), 1997: no storage beyond the corners, one division.
 
-use super::{Kernel, KernelId, cross3, dot3, load_corners, splat_corners, splat_row3, store_rows, sub3};
+use super::{
+    Immediate, Kernel, KernelId, Preparation, cross3, dot3, load_corners, splat_corners, splat_row3,
+    store_rows, sub3,
+};
 use accel::{Common, Ray};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use lanes::{Row, Simd};
@@ -13,6 +16,8 @@ pub struct MollerTrumbore;
 
 impl Kernel for MollerTrumbore {
     const ID: KernelId = KernelId::MollerTrumbore;
+    type Prepared = Self;
+    type Deferral = Immediate;
     type One = Ray;
     type Many<S: Simd> = Packet<S>;
 
@@ -35,12 +40,14 @@ impl Kernel for MollerTrumbore {
     fn rays<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
         test(s, rays, splat_corners(s, group, lane), t_max)
     }
+}
 
-    const PREPARED_ROWS: usize = 13;
+impl Preparation<Self> for MollerTrumbore {
+    const ROWS: usize = 13;
 
     #[inline(always)]
     fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
-        let rows = &mut rows[..Self::PREPARED_ROWS];
+        let rows = &mut rows[..<Self as Preparation<Self>>::ROWS];
         let [a, b, c] = load_corners(s, group, at);
         let edge1 = sub3(s, b, a);
         let edge2 = sub3(s, c, a);

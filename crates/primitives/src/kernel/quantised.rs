@@ -1,6 +1,6 @@
 //! Corners of 16 bits a coordinate.
 
-use super::{Kernel, KernelId, MollerTrumbore};
+use super::{Immediate, Kernel, KernelId, MollerTrumbore, Preparation};
 use accel::{Common, Ray};
 use lanes::packet::{Lanes, Packet};
 use lanes::{Row, Simd};
@@ -15,6 +15,8 @@ type Test = MollerTrumbore;
 impl Kernel for Quantised {
     const ID: KernelId = KernelId::Quantised;
     const QUANTISED: bool = true;
+    type Prepared = Self;
+    type Deferral = Immediate;
     type One = <Test as Kernel>::One;
     type Many<S: Simd> = <Test as Kernel>::Many<S>;
 
@@ -41,11 +43,19 @@ impl Kernel for Quantised {
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
+    fn rays<S: Simd>(
+        s: S,
+        rays: &<Self as Kernel>::Many<S>,
+        group: &[Row],
+        lane: usize,
+        t_max: S::F,
+    ) -> Lanes<S> {
         Test::rays(s, rays, group, lane, t_max)
     }
+}
 
-    const PREPARED_ROWS: usize = Test::PREPARED_ROWS;
+impl Preparation<Self> for Quantised {
+    const ROWS: usize = <Test as Preparation<Test>>::ROWS;
 
     #[inline(always)]
     fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
@@ -55,7 +65,7 @@ impl Kernel for Quantised {
     #[inline(always)]
     fn rays_prepared<S: Simd>(
         s: S,
-        rays: &Self::Many<S>,
+        rays: &<Self as Kernel>::Many<S>,
         common: &Common,
         group: &[Row],
         rows: &[Row],

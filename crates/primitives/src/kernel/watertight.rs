@@ -2,7 +2,7 @@
 //! Computer Graphics Techniques 2(1), 2013: the ray is sheared onto an axis, edge functions
 //! are evaluated in the plane, and a zero edge function is evaluated again in `f64`.
 
-use super::{Kernel, KernelId, det2, dot3, load_corners, splat_corners, sub3};
+use super::{Immediate, Kernel, KernelId, Unprepared, det2, dot3, load_corners, splat_corners, sub3};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use lanes::{ROW, Row, Simd};
@@ -70,6 +70,8 @@ fn shear<S: Simd>(s: S, [x, y, z]: Vec3Lanes<S>) -> Vec3Lanes<S> {
 
 impl Kernel for Watertight {
     const ID: KernelId = KernelId::Watertight;
+    type Prepared = Unprepared;
+    type Deferral = Immediate;
     type One = Sheared;
     type Many<S: Simd> = ShearedLanes<S>;
 

@@ -14,6 +14,7 @@ use self::ids::Ids;
 use self::lattice::{Lattice, ShortRows};
 use crate::Kernel;
 use crate::kernel::load_corners;
+use crate::kernel::{Deferral, Preparation};
 use accel::Objects;
 use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
 use lanes::packet::{NearestPacket, Packet, Vec3Lanes};
@@ -52,7 +53,7 @@ impl<'s, K: Kernel> Triangles<'s, K> {
     /// The objects of a scene of triangles.
     pub fn new(mesh: impl Into<MeshRef<'s>>) -> Self {
         let mesh = mesh.into();
-        const { assert!(!K::QUANTISED || (K::ROWS == CORNER_ROWS && !K::POSTPONES)) };
+        const { assert!(!K::QUANTISED || (K::ROWS == CORNER_ROWS && !K::Deferral::DEFERS)) };
         let mut bounds = mesh.bounds();
         let lattice = Lattice::over(&bounds);
         if K::QUANTISED && !bounds.is_empty() {
@@ -71,13 +72,13 @@ impl<'s, K: Kernel> Triangles<'s, K> {
     /// Whether `a` comes before `b`, both hit at the same reported t.
     #[inline]
     fn precedes(&self, ray: &Ray, a: u32, b: u32) -> bool {
-        let order = if K::ORDERS_TIES { self.order(ray, a, b) } else { Ordering::Equal };
+        let order = if K::Deferral::DEFERS { self.order(ray, a, b) } else { Ordering::Equal };
         order.then(a.cmp(&b)).is_lt()
     }
 
     #[cold]
     fn order(&self, ray: &Ray, a: u32, b: u32) -> Ordering {
-        K::order(ray, &self.corners(a), &self.corners(b))
+        K::Deferral::order(ray, &self.corners(a), &self.corners(b))
     }
 }
 
@@ -241,7 +242,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
-        if K::POSTPONES {
+        if K::Deferral::DEFERS {
             return self.postpone_nearest(s, block, mask, ray, best);
         }
         self.visit(s, block, mask, ray, best.t, |object, surface| {
@@ -252,7 +253,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
-        if K::POSTPONES {
+        if K::Deferral::DEFERS {
             return self.any_certain(s, block, mask, ray, t_max);
         }
         let mut any = false;
@@ -265,7 +266,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn settle(&self, ray: &Self::One, best: &mut Nearest) {
-        if K::POSTPONES {
+        if K::Deferral::DEFERS {
             self.settle_one(ray, best);
         }
     }
@@ -274,8 +275,8 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         let mut room = Room::EMPTY;
         let group = self.group(s, slot, &mut room);
-        if K::POSTPONES {
-            let bounds = K::bounds(s, &rays.prepared, group, slot % ROW, best.t);
+        if K::Deferral::DEFERS {
+            let bounds = K::Deferral::bounds(s, &rays.prepared, group, slot % ROW, best.t);
             if s.bits(bounds.open) != 0 {
                 self.postpone(s, slot, rays, &bounds, best);
             }
@@ -288,14 +289,14 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         }
     }
 
-    const PREPARED_ROWS: usize = K::PREPARED_ROWS
-        + if K::POSTPONES { 0 } else { LIMIT_ROWS }
+    const PREPARED_ROWS: usize = K::Prepared::ROWS
+        + if K::Deferral::DEFERS { 0 } else { LIMIT_ROWS }
         + if K::QUANTISED { CORNER_ROWS } else { 0 };
 
     #[inline(always)]
     fn prepare<S: Simd>(&self, s: S, first: usize, common: &Common, rows: &mut [Row]) {
-        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at_mut(K::PREPARED_ROWS);
-        let (limits, unpacked) = limits.split_at_mut(if K::POSTPONES { 0 } else { LIMIT_ROWS });
+        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at_mut(K::Prepared::ROWS);
+        let (limits, unpacked) = limits.split_at_mut(if K::Deferral::DEFERS { 0 } else { LIMIT_ROWS });
         for at in (0..ROW).step_by(S::LANES) {
             let group = if K::QUANTISED {
                 self.unpack(s, first, at, unpacked);
@@ -303,8 +304,8 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
             } else {
                 self.packed(first)
             };
-            K::prepare(s, &self.triangles.frame.common(common), group, at, rows);
-            if K::POSTPONES {
+            K::Prepared::prepare(s, &self.triangles.frame.common(common), group, at, rows);
+            if K::Deferral::DEFERS {
                 continue;
             }
             let held = K::ROWS >= CORNER_ROWS && self.rows_hold_corners() && K::corners(group, 0).is_some();
@@ -324,17 +325,17 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         best: &mut NearestPacket<S>,
     ) {
         let lane = slot % ROW;
-        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at(K::PREPARED_ROWS);
+        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at(K::Prepared::ROWS);
         let group = if K::QUANTISED { &limits[LIMIT_ROWS..] } else { self.packed(slot) };
         let common = &self.triangles.frame.common(common);
-        if K::POSTPONES {
-            let bounds = K::bounds_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
+        if K::Deferral::DEFERS {
+            let bounds = K::Deferral::bounds_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
             if s.bits(bounds.open) != 0 {
                 self.postpone(s, slot, rays, &bounds, best);
             }
             return;
         }
-        let lanes = K::rays_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
+        let lanes = K::Prepared::rays_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
         if s.bits(lanes.hit) != 0 {
             self.offer(s, slot, rays, &Limits::load(limits, lane), lanes, best);
         }
@@ -342,7 +343,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
-        if K::POSTPONES {
+        if K::Deferral::DEFERS {
             self.settle_lanes(s, rays, u32::MAX, best);
         }
     }

@@ -3,6 +3,7 @@
 #[cfg(doc)]
 use super::Frame;
 use super::{Kernel, Limits, TriangleBlocks, TrianglePacket, next_lane};
+use crate::kernel::Deferral;
 use accel::Nearest;
 use lanes::packet::{Bounds, Lanes, NearestPacket, Packet};
 use lanes::{Blocks, ROW, Row, Simd};
@@ -39,7 +40,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             lanes.hit = s.mask(kept);
         }
         let object = self.ids.get(slot);
-        if K::ORDERS_TIES {
+        if K::Deferral::DEFERS {
             self.take_ties(s, object, &mut lanes, &rays.rays, best);
         }
         best.offer(s, object, &lanes);
@@ -98,7 +99,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         open: u32,
         best: &mut NearestPacket<S>,
     ) {
-        let lanes = K::decide(s, &rays.prepared, self.packed(slot), slot % ROW, open, best.t);
+        let lanes = K::Deferral::decide(s, &rays.prepared, self.packed(slot), slot % ROW, open, best.t);
         let hits = s.bits(lanes.hit);
         if hits != 0 {
             self.settle_lanes(s, rays, hits, best);
@@ -133,7 +134,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             slots[lane] = self.object(slot);
         }
         let rays = self.triangles.frame.packet(s, &rays.rays);
-        let found = K::settle(s, &rays, &group[..K::ROWS], open);
+        let found = K::Deferral::resolve(s, &rays, &group[..K::ROWS], open);
         best.take_each(s, s.mask(open), &slots, &found);
     }
 }

@@ -1,6 +1,7 @@
 //! One ray against triangles in lanes.
 
 use super::{Kernel, Room, TriangleBlocks, TriangleRay, next_lane};
+use crate::kernel::Deferral;
 use accel::{Nearest, Surface};
 use lanes::{BLOCK, Blocks, ROW, Row, Scalar, Simd};
 
@@ -87,7 +88,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     ) {
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
             let group = self.packed(first);
-            let bounds = K::triangles_bounds(s, &ray.prepared, group, first % ROW, wanted, best.t);
+            let bounds = K::Deferral::triangles_bounds(s, &ray.prepared, group, first % ROW, wanted, best.t);
             let mut open = s.bits(bounds.open) & wanted;
             if open == 0 {
                 continue;
@@ -128,7 +129,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     #[inline(always)]
     fn decided(&self, ray: &TriangleRay<K::One>, slot: usize, t_max: f32) -> Option<Surface> {
         let group = self.packed(slot);
-        let lanes = K::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, t_max);
+        let lanes = K::Deferral::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, t_max);
         let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
         (lanes.hit && self.holds(group, slot, ray, surface)).then_some(surface)
     }
@@ -139,7 +140,8 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         if best.is_postponed() {
             let slot = best.object as usize;
             let group = self.packed(slot);
-            let lanes = K::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, ray.ray.t_max);
+            let lanes =
+                K::Deferral::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, ray.ray.t_max);
             debug_assert!(lanes.hit, "a sure hit");
             *best = Nearest { t: lanes.t, object: self.object(slot), u: lanes.u, v: lanes.v };
         }
@@ -156,8 +158,14 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         t_max: f32,
     ) -> bool {
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
-            let bounds =
-                K::triangles_bounds(s, &ray.prepared, self.packed(first), first % ROW, wanted, t_max);
+            let bounds = K::Deferral::triangles_bounds(
+                s,
+                &ray.prepared,
+                self.packed(first),
+                first % ROW,
+                wanted,
+                t_max,
+            );
             let mut open = s.bits(bounds.open) & wanted;
             if open == 0 {
                 continue;

@@ -4,7 +4,7 @@
 //!
 //! 1. [`reject`]: Möller and Trumbore's products in `f32` with an error bound, in lanes. Nearly all
 //!    triangles tested are missed, and nearly all misses end here. Hits that are certain, with bounds of t that tell which
-//!    is the nearest, wait until the ray is done ([`Kernel::POSTPONES`]).
+//!    is the nearest, wait until the ray is done ([`Deferral`]).
 //! 2. [`decide`]: the same products in `f64` with an error bound. It settles hits, and rounds t correctly where
 //!    its bound leaves one `f32` only.
 //! 3. [`signs`]: rays through an edge or a corner, by signs without error.
@@ -16,7 +16,7 @@
 //!
 //! t is the true one correctly rounded. Rounding keeps order, so of two hits the one reported at the lower t is the
 //! nearer one; hits reported at the same t are put in order by exact quotients unless they are of one edge or corner
-//! ([`Kernel::order`]).
+//! ([`Deferral::order`]).
 //!
 //! The idea of stages is that of J. R. Shewchuk, *Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
@@ -32,7 +32,7 @@ mod triple;
 mod tests;
 
 use super::wide::{OneEach, OneRay, OneTriangle, RayRows};
-use super::{Corners, Kernel, KernelId, load_corners, pack_corners, splat_corners};
+use super::{Corners, Deferral, Kernel, KernelId, Preparation, load_corners, pack_corners, splat_corners};
 use accel::{Common, Ray};
 use lanes::packet::{Bounds, Lanes, Packet};
 use lanes::{Row, Scalar, Simd};
@@ -64,10 +64,11 @@ pub struct SpannedLanes<S: Simd> {
 
 impl Kernel for Exact {
     const ID: KernelId = KernelId::Exact;
-    const ORDERS_TIES: bool = true;
     const NORMALISED: bool = false;
     /// The corners, and the largest component of the edges.
     const ROWS: usize = 10;
+    type Prepared = Self;
+    type Deferral = Self;
     type One = Spanned;
     type Many<S: Simd> = SpannedLanes<S>;
 
@@ -101,6 +102,37 @@ impl Kernel for Exact {
     }
 
     #[inline(always)]
+    fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
+        let open = s.bits(Self::bounds(s, rays, group, lane, t_max).open);
+        Self::decide(s, rays, group, lane, open, t_max)
+    }
+}
+
+impl Preparation<Self> for Exact {
+    const ROWS: usize = reject::PREPARED_ROWS;
+
+    #[inline(always)]
+    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
+        reject::prepare(s, common, load_corners(s, group, at), rows, at);
+    }
+
+    #[inline(always)]
+    fn rays_prepared<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        common: &Common,
+        group: &[Row],
+        rows: &[Row],
+        lane: usize,
+        t_max: S::F,
+    ) -> Lanes<S> {
+        let bounds = Self::bounds_prepared(s, rays, common, group, rows, lane, t_max);
+        Self::decide(s, rays, group, lane, s.bits(bounds.open), t_max)
+    }
+}
+
+impl Deferral<Self> for Exact {
+    #[inline(always)]
     fn triangles_bounds<S: Simd>(
         s: S,
         ray: &Spanned,
@@ -132,14 +164,6 @@ impl Kernel for Exact {
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        let open = s.bits(Self::bounds(s, rays, group, lane, t_max).open);
-        Self::decide(s, rays, group, lane, open, t_max)
-    }
-
-    const POSTPONES: bool = true;
-
-    #[inline(always)]
     fn bounds<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Bounds<S> {
         let length = s.splat(group[LENGTH_ROW].0[lane]);
         let corners = splat_corners(s, group, lane);
@@ -166,16 +190,9 @@ impl Kernel for Exact {
     }
 
     #[inline(always)]
-    fn settle<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], open: u32) -> Lanes<S> {
+    fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], open: u32) -> Lanes<S> {
         let rows = RayRows::of(s, rays);
         in_range(s, decide::decide(s, &OneEach::new(&rows, group), open), rays, rays.t_max)
-    }
-
-    const PREPARED_ROWS: usize = reject::PREPARED_ROWS;
-
-    #[inline(always)]
-    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
-        reject::prepare(s, common, load_corners(s, group, at), rows, at);
     }
 
     #[inline(always)]

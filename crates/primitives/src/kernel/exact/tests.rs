@@ -42,7 +42,7 @@ fn aim(triangle: &Corners, weights: [f32; 3]) -> Vec3 {
 fn check(ray: &Ray, triangle: &Corners) -> Result<(), TestCaseError> {
     let found = Exact::test(&Exact::one(ray), triangle, ray.t_max);
     let exact = intersect(ray, triangle);
-    let mut group = [Row([0.0; ROW]); Exact::ROWS];
+    let mut group = [Row([0.0; ROW]); <Exact as Kernel>::ROWS];
     Exact::pack(triangle, &mut group, 0);
     let bounds = Exact::triangles_bounds(Scalar, &Exact::one(ray), &group, 0, 1, ray.t_max);
     prop_assert!(bounds.open || exact.is_none(), "{:?} {:?}", ray, triangle);
