@@ -59,16 +59,13 @@ impl<'s> WithObjects<'s> for Sort {
     }
 }
 
-/// In the suite this stands in `crates/harness/src/registry/entries.rs`.
+/// In the suite this stands in a file of `crates/harness/src/registry/entries/`.
 static ENTRY: Entry = Entry {
-    id: "sorted",
     description: "objects sorted along x",
-    source: "",
-    version: || "0.1.0".to_owned(),
     settings: &[KERNEL],
     traits: Traits { linear: true, ..Traits::BUILT_IN },
     variants: &["kernel=watertight"],
-    make: |settings| Ok(Box::new(Sort(settings.kernel()?))),
+    ..Entry::new("sorted", |settings| Ok(Box::new(Sort(settings.kernel()?))))
 };
 
 /// Runs the example.

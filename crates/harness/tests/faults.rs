@@ -8,7 +8,7 @@ use accel::{
     Surface,
 };
 use bmssm::general::{General, Settings};
-use harness::registry::{Choice, ChosenKernel, Entry, Traits};
+use harness::registry::{Choice, ChosenKernel, Entry};
 use harness::sweeps::{differences, leaks, oracle};
 use lanes::packet::{Lanes, Packet};
 use lanes::{Level, PackedObjects, Row, Simd};
@@ -222,16 +222,7 @@ impl Builder for Planted {
 }
 
 fn choice(planted: Planted) -> Choice {
-    static ENTRY: Entry = Entry {
-        id: "planted",
-        description: "",
-        source: "",
-        version: String::new,
-        settings: &[],
-        traits: Traits::BUILT_IN,
-        variants: &[],
-        make: |_| unreachable!("made by the test"),
-    };
+    static ENTRY: Entry = Entry::new("planted", |_| unreachable!("made by the test"));
     Choice {
         spec: "planted".parse().unwrap(),
         entry: &ENTRY,

@@ -4,67 +4,26 @@
 //! lightness. The shades were spread so that any two stay apart for people without one of the
 //! three cones too; the tests hold them to that. Shapes differ as well.
 
+pub use harness::registry::{Look, Shape};
+
 use harness::record::id_of;
-
-/// The shape of a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Shape {
-    /// ●
-    Circle,
-    /// ■
-    Square,
-    /// ▲
-    Triangle,
-    /// ◆
-    Diamond,
-}
-
-/// How a structure looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Look {
-    /// Colour on a light ground, as `#rrggbb`.
-    pub light: &'static str,
-    /// Colour on a dark ground, as `#rrggbb`.
-    pub dark: &'static str,
-    /// Shape of its points.
-    pub shape: Shape,
-}
-
-const fn look(light: &'static str, dark: &'static str, shape: Shape) -> Look {
-    Look { light, dark, shape }
-}
-
-/// Id and look of every structure.
-const LOOKS: [(&str, Look); 14] = [
-    ("bmssm", look("#da670c", "#e65315", Shape::Circle)),
-    ("bmssm-dense", look("#38120a", "#98562a", Shape::Square)),
-    ("ssm", look("#7f6c2a", "#efb21f", Shape::Diamond)),
-    ("ssm-list", look("#4c3806", "#e0cb61", Shape::Triangle)),
-    ("obvhs-bvh2", look("#02a464", "#02a666", Shape::Triangle)),
-    ("obvhs-cwbvh", look("#13623c", "#3ffda4", Shape::Diamond)),
-    ("embree", look("#0969b8", "#63befd", Shape::Square)),
-    ("embree-robust", look("#0b3759", "#b2dffe", Shape::Diamond)),
-    ("embree-compact", look("#1997f6", "#336ba2", Shape::Circle)),
-    ("embree-packet", look("#4603b4", "#a027e8", Shape::Triangle)),
-    ("embree-rs", look("#8a48fc", "#d25afc", Shape::Square)),
-    ("minmax", look("#6a6a6a", "#9b9b9b", Shape::Triangle)),
-    ("sphere", look("#3c3c3c", "#666666", Shape::Circle)),
-    ("brute", look("#939393", "#cfcfcf", Shape::Square)),
-];
-
-/// The look of structures that are none of the suite's.
-const OTHER: Look = look("#bb6cac", "#f723c7", Shape::Diamond);
+use harness::registry;
 
 /// The look of a structure, named by its id with or without settings.
 pub fn of(structure: &str) -> Look {
-    let id = id_of(structure);
-    LOOKS.iter().find(|(known, _)| *known == id).map_or(OTHER, |(_, look)| *look)
+    registry::look_of(id_of(structure))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use harness::registry;
+
+    /// Every structure with its look, and the look of others.
+    fn looks() -> Vec<(&'static str, Look)> {
+        let ids = registry::entries().iter().map(|e| e.id);
+        let ids = ids.chain(registry::absent().into_iter().map(|a| a.id));
+        ids.map(|id| (id, of(id))).chain([("other", Look::OTHER)]).collect()
+    }
 
     /// Linear intensities of a `#rrggbb` colour.
     fn linear(colour: &str) -> [f64; 3] {
@@ -118,21 +77,22 @@ mod tests {
         let ids =
             registry::entries().iter().map(|e| e.id).chain(registry::absent().into_iter().map(|a| a.id));
         for id in ids {
-            assert_ne!(of(id), OTHER, "{id}");
+            assert_ne!(of(id), Look::OTHER, "{id}");
         }
-        for (i, (id, look)) in LOOKS.iter().enumerate() {
+        let looks = looks();
+        for (i, (id, look)) in looks.iter().enumerate() {
             assert!(
-                LOOKS[..i].iter().all(|(_, other)| other.light != look.light && other.dark != look.dark),
+                looks[..i].iter().all(|(_, other)| other.light != look.light && other.dark != look.dark),
                 "{id}"
             );
         }
         assert_eq!(of("ssm:n=4"), of("ssm"));
-        assert_eq!(of("mine"), OTHER);
+        assert_eq!(of("mine"), Look::OTHER);
     }
 
     #[test]
     fn colours_stand_out_from_the_ground() {
-        for (id, look) in LOOKS.iter().chain([&("other", OTHER)]) {
+        for (id, look) in looks() {
             assert!(contrast(look.light, "#ffffff") >= 3.0, "{id}: {}", contrast(look.light, "#ffffff"));
             assert!(contrast(look.dark, "#15181d") >= 3.0, "{id}: {}", contrast(look.dark, "#15181d"));
         }
@@ -141,7 +101,7 @@ mod tests {
     #[test]
     fn colours_are_apart_for_the_colour_blind_too() {
         // Twelve of such units are told apart at a glance; one can just be seen side by side.
-        let all: Vec<_> = LOOKS.iter().chain([&("other", OTHER)]).collect();
+        let all = looks();
         for (i, (a, x)) in all.iter().enumerate() {
             for (b, y) in &all[..i] {
                 for (vision, matrix) in VISIONS.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::record::{Cell, Intersector, Outcome, Query};
-use crate::registry::{self, Choice, ChosenKernel, Entry, Traits};
+use crate::registry::{self, Choice, ChosenKernel, Entry};
 use crate::testing;
 use crate::workload::Workload;
 use accel::{Accel, BuildError, Builder, Footprint, Hit, Need, Ray, RaySet, Scene};
@@ -153,16 +153,7 @@ impl Accel for OddAccel<'_> {
 }
 
 fn odd(fault: Fault) -> Cell {
-    static ENTRY: Entry = Entry {
-        id: "odd",
-        description: "",
-        source: "",
-        version: String::new,
-        settings: &[],
-        traits: Traits::BUILT_IN,
-        variants: &[],
-        make: |_| unreachable!("made by the test"),
-    };
+    static ENTRY: Entry = Entry::new("odd", |_| unreachable!("made by the test"));
     let odd = Choice {
         spec: "odd".parse().unwrap(),
         entry: &ENTRY,

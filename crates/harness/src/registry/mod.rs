@@ -1,27 +1,32 @@
 //! The one place that names all structures.
 //!
-//! An [`Entry`] says what a structure is, which settings it takes and how it is made from
-//! them. Adding a structure is adding an entry to `entries.rs`.
+//! Adding a structure is adding an [`Entry`] to a file of `entries/`: everything else derives from it.
 
 mod build;
 mod entries;
 mod error;
 mod kernel;
+mod look;
 mod settings;
 
 pub use build::{BuildFailure, guarded_build};
 pub use entries::keep_to_one_thread;
 pub use error::RegistryError;
 pub use kernel::{AUTO, ChosenKernel, DEFAULT_MAX_ERROR};
+pub use look::{Look, Shape, look};
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 
 use accel::{Accel, Builder, Need, RaySet, Scene};
 use baselines::Brute;
 use primitives::KernelId;
 use scenes::near::near;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-/// A structure that can be built.
+/// Makes a builder from settings.
+pub type Make = fn(&Settings) -> Result<Box<dyn Builder>, RegistryError>;
+
+/// A structure: all that lists, help, completions, default sets, checks, recommendations and pictures know of it.
+#[derive(Clone, Copy)]
 pub struct Entry {
     /// Its id.
     pub id: &'static str,
@@ -37,8 +42,33 @@ pub struct Entry {
     pub traits: Traits,
     /// Settings worth checking besides the default ones, as `name=value,…`.
     pub variants: &'static [&'static str],
+    /// Settings that may suit a user better than the default ones, likewise.
+    pub trials: &'static [&'static str],
+    /// How it looks in pictures.
+    pub look: Look,
     /// Makes a builder.
-    pub make: fn(&Settings) -> Result<Box<dyn Builder>, RegistryError>,
+    pub make: Make,
+    /// Why this program was built without it, if it was.
+    pub absent: Option<fn() -> String>,
+}
+
+impl Entry {
+    /// A built-in structure of which nothing more is said.
+    pub const fn new(id: &'static str, make: Make) -> Self {
+        Self {
+            id,
+            description: "",
+            source: "",
+            version: || env!("CARGO_PKG_VERSION").to_owned(),
+            settings: &[],
+            traits: Traits::BUILT_IN,
+            variants: &[],
+            trials: &[],
+            look: Look::OTHER,
+            make,
+            absent: None,
+        }
+    }
 }
 
 /// How a structure takes part in a comparison.
@@ -56,12 +86,24 @@ pub struct Traits {
     pub lists: bool,
     /// Its memory comes from this program's allocator, so that peaks can be counted.
     pub counted: bool,
+    /// Suits scenes of any size, so that it is worth trying with every kernel.
+    pub any_kernel: bool,
+    /// Its leaks are counted beside those of kernels that promise none.
+    pub leaks: bool,
 }
 
 impl Traits {
     /// One of the suite's own structures.
-    pub const BUILT_IN: Self =
-        Self { default: true, built_in: true, linear: false, by_need: false, lists: true, counted: true };
+    pub const BUILT_IN: Self = Self {
+        default: true,
+        built_in: true,
+        linear: false,
+        by_need: false,
+        lists: true,
+        counted: true,
+        any_kernel: false,
+        leaks: false,
+    };
     /// A structure from elsewhere with a ray-triangle test of its own.
     pub const EXTERNAL: Self = Self { built_in: false, ..Self::BUILT_IN };
 }
@@ -121,12 +163,23 @@ impl Choice {
 
 /// All structures of this program, in the order of reports.
 pub fn entries() -> &'static [Entry] {
-    entries::all()
+    static PRESENT: LazyLock<Vec<Entry>> =
+        LazyLock::new(|| known().filter(|entry| entry.absent.is_none()).copied().collect());
+    &PRESENT
 }
 
 /// The structures that this program was built without, with the reason.
 pub fn absent() -> Vec<Absent> {
-    entries::absent()
+    known().filter_map(|entry| Some(Absent { id: entry.id, reason: entry.absent?() })).collect()
+}
+
+fn known() -> impl Iterator<Item = &'static Entry> {
+    entries::FAMILIES.into_iter().flatten()
+}
+
+/// How the structure of that id looks.
+pub fn look_of(id: &str) -> Look {
+    known().find(|entry| entry.id == id).map_or(Look::OTHER, |entry| entry.look)
 }
 
 /// The structure of that id.
@@ -175,7 +228,20 @@ pub fn quick(scene: &Scene, kernel: KernelId) -> Box<dyn Accel + '_> {
 /// The structures of the default comparison.
 pub fn defaults() -> Vec<StructureSpec> {
     let all = entries().iter().filter(|entry| entry.traits.default);
-    all.map(|entry| StructureSpec { id: entry.id.to_owned(), settings: Vec::new() }).collect()
+    all.map(|entry| StructureSpec::plain(entry.id)).collect()
+}
+
+/// Structures with settings that may suit a user better than the default ones.
+pub fn trials() -> Vec<StructureSpec> {
+    let trials = entries().iter().flat_map(|entry| entry.trials.iter().map(move |s| (entry.id, s)));
+    trials.map(|(id, settings)| format!("{id}:{settings}").parse().expect("trials are settings")).collect()
+}
+
+/// The structures that suit any scene, with each of these kernels.
+pub fn with_kernels(kernels: impl IntoIterator<Item = KernelId> + Clone) -> Vec<StructureSpec> {
+    let suit = entries().iter().filter(|entry| entry.traits.any_kernel);
+    let each = suit.flat_map(|entry| kernels.clone().into_iter().map(move |kernel| (entry.id, kernel)));
+    each.map(|(id, kernel)| StructureSpec::plain(id).with("kernel", kernel.id())).collect()
 }
 
 /// The structures that pass `takes`, each by its defaults and by its variants.

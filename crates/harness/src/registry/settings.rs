@@ -24,6 +24,11 @@ pub struct StructureSpec {
 }
 
 impl StructureSpec {
+    /// A structure by its default settings.
+    pub fn plain(id: &str) -> Self {
+        Self { id: id.to_owned(), settings: Vec::new() }
+    }
+
     /// With a setting added, unless it is set already.
     #[must_use]
     pub fn with_default(mut self, name: &str, value: impl ToString) -> Self {

@@ -82,7 +82,7 @@ pub fn defaults() -> Vec<StructureSpec> {
     for entry in registry::entries().iter().filter(|e| e.traits.built_in && e.traits.default) {
         let linear = entry.traits.linear;
         for kernel in KernelId::ALL.into_iter().filter(|kernel| !(linear && kernel.is_lossy())) {
-            let spec = StructureSpec { id: entry.id.to_owned(), settings: Vec::new() };
+            let spec = StructureSpec::plain(entry.id);
             all.push(spec.with_default("kernel", kernel));
         }
     }

@@ -11,6 +11,7 @@ use harness::sweeps::differences::{self, Sweep, Tally};
 use harness::sweeps::leaks::{self, LeakTally};
 use harness::sweeps::oracle::{self, OraclePlan, OracleTally};
 use harness::units;
+use primitives::KernelId;
 use report::table::Table;
 use scenes::rays::RaysId;
 use serde::Serialize;
@@ -94,7 +95,7 @@ fn by_oracle(console: &Console, selection: &Selection, least: u64) -> Result<Ora
         seed: selection.seed,
         least,
     };
-    let choices = selection.structures(&specs(&["bmssm:kernel=exact", "ssm:kernel=exact"]))?;
+    let choices = selection.structures(&registry::with_kernels([KernelId::Exact]))?;
     let mut progress = Progress::new(console, plan.scenes.len(), "judging");
     let tally = console.in_pool(0, || oracle::run(&plan, &choices, &mut progress))??;
     progress.finish();
@@ -103,25 +104,15 @@ fn by_oracle(console: &Console, selection: &Selection, least: u64) -> Result<Ora
 
 /// The structures with a kernel that promises not to leak, and Embree on the same rays.
 fn from_inside(console: &Console, selection: &Selection, least: u64) -> Result<LeakTally, Error> {
-    let mut all = specs(&[
-        "bmssm:kernel=watertight",
-        "bmssm:kernel=exact",
-        "ssm:kernel=watertight",
-        "ssm:kernel=exact",
-        "embree-robust",
-        "embree",
-    ]);
-    all.retain(|spec| registry::find(&spec.id).is_ok());
+    let mut all = registry::with_kernels(KernelId::ALL.into_iter().filter(|kernel| kernel.is_watertight()));
+    let others = registry::entries().iter().filter(|entry| entry.traits.leaks);
+    all.extend(others.map(|entry| StructureSpec::plain(entry.id)));
     let choices = selection.structures(&all)?;
     let seed = selection.seed;
     let mut progress = Progress::new(console, leaks::MESHES.len() * leaks::SCALES.len(), "tracing");
     let tally = console.in_pool(0, || leaks::run(least, seed, &choices, &mut progress))??;
     progress.finish();
     Ok(tally)
-}
-
-fn specs(texts: &[&str]) -> Vec<StructureSpec> {
-    texts.iter().map(|text| text.parse().expect("a structure with settings")).collect()
 }
 
 /// The structures chosen on the scenes chosen.

@@ -72,14 +72,6 @@ fn size(text: &str) -> Result<u64, String> {
     }
 }
 
-/// Settings worth trying besides the default ones.
-const SETTINGS: [(&str, &str); 4] = [
-    ("embree", "quality=high"),
-    ("embree", "quality=low"),
-    ("obvhs-cwbvh", "preset=fastest"),
-    ("obvhs-bvh2", "preset=fastest"),
-];
-
 /// Structures that test every object for every ray are candidates up to so many objects.
 const FEW_OBJECTS: usize = 2000;
 
@@ -155,16 +147,9 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
         scene.geometry.len() <= FEW_OBJECTS
             || !registry::find(&spec.id).is_ok_and(|entry| entry.traits.linear)
     });
-    let here = |id: &str| registry::find(id).is_ok();
-    for (id, settings) in SETTINGS.iter().filter(|(id, _)| here(id)) {
-        specs.push(format!("{id}:{settings}").parse()?);
-    }
+    specs.extend(registry::trials());
     if accuracy {
-        for id in ["bmssm", "ssm"].into_iter().filter(|id| here(id)) {
-            for kernel in &KERNELS[1..] {
-                specs.push(format!("{id}:kernel={kernel}").parse()?);
-            }
-        }
+        specs.extend(registry::with_kernels(KERNELS[1..].iter().copied()));
     }
     specs.iter().map(|spec| Ok(registry::choose(spec)?)).collect()
 }
