@@ -23,8 +23,8 @@ struct Cli {
 /// The whole program.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    let Global { scenes, meshes, .. } = cli.global.clone();
-    scenes::look_in(Folders { scenes, meshes });
+    let Global { scenes_folder, meshes_folder, .. } = cli.global.clone();
+    scenes::look_in(Folders { scenes: scenes_folder, meshes: meshes_folder });
     let console = Console::new(cli.global, grammar);
     let outcome = match &cli.command {
         Some(command) => command.verb().run(&console),
