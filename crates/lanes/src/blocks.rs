@@ -38,26 +38,26 @@ pub trait Blocks: Send + Sync {
     /// Prepares `LANES` rays.
     fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Self::Many<S>;
 
-    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be postponed until [`Blocks::settle`].
+    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be deferred until [`Blocks::resolve`].
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest);
 
     /// Whether any object of `block` whose bit is set in `mask` is hit at t in
     /// `[ray.t_min, t_max]`.
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         let mut best = Nearest::new(t_max);
-        // A hit that is postponed is a certain one.
+        // A hit that is deferred is a certain one.
         self.closest(s, block, mask, ray, &mut best);
         best.object != Nearest::NONE
     }
 
-    /// Decides what [`Blocks::closest`] postponed: before it, `best` holds an upper bound of t, after it a hit. By default
-    /// nothing is postponed.
+    /// Resolves what [`Blocks::closest`] deferred: before it, `best` holds an upper bound of t, after it a hit. By default
+    /// nothing is deferred.
     #[inline(always)]
-    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
+    fn resolve(&self, ray: &Self::One, best: &mut Nearest) {
         let _ = (ray, best);
     }
 
-    /// Tests the object of one slot with `LANES` rays. Hits may be postponed until [`Blocks::settle_packet`].
+    /// Tests the object of one slot with `LANES` rays. Hits may be deferred until [`Blocks::resolve_packet`].
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>);
 
     /// Rows of values for each 16 slots that [`Blocks::prepare`] computes.
@@ -89,9 +89,9 @@ pub trait Blocks: Send + Sync {
         self.packet(s, slot, rays, best);
     }
 
-    /// [`Blocks::settle`] for what [`Blocks::packet`] postponed.
+    /// [`Blocks::resolve`] for what [`Blocks::packet`] deferred.
     #[inline(always)]
-    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+    fn resolve_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         let _ = (s, rays, best);
     }
 }
