@@ -43,8 +43,10 @@ pub fn ray_sets() -> Names {
 
 /// Kernels, and the choice of one.
 pub fn kernels() -> Names {
-    let lossy = |kernel: KernelId| if kernel.is_lossy() { "lossy" } else { "" };
-    let kernel = |kernel: KernelId| PossibleValue::new(kernel.id()).help(lossy(kernel));
+    let kernel = |kernel: KernelId| {
+        let value = PossibleValue::new(kernel.id());
+        if kernel.is_lossy() { value.help("lossy: it takes the scene for another one") } else { value }
+    };
     let auto =
         PossibleValue::new(AUTO).help("for each scene the cheapest that keeps --max-error on its rays");
     Names::new(KernelId::ALL.map(kernel).into_iter().chain([auto]))
