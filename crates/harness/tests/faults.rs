@@ -213,7 +213,8 @@ impl Builder for Planted {
             Self::Kernel { open_edges: true } => Box::new(All(Triangles::<OpenEdges>::new(mesh))),
             Self::Kernel { open_edges: false } => Box::new(All(Triangles::<Watertight>::new(mesh))),
             Self::Maps { inwards } => {
-                let settings = Settings { simd: Level::best(), stretch: 1024 };
+                let settings =
+                    Settings { simd: Level::best(), stretch: 1024, storage: bmssm::general::Storage::Rows };
                 Box::new(Maps(General::new(&Rounded::new(mesh, inwards), settings)))
             }
             Self::Walk { skips_corners } => Box::new(Cells::new(mesh, skips_corners)),

@@ -1,7 +1,7 @@
 //! Objects packed in blocks of 64: a structure with bit maps speaks of them in masks.
 
-use crate::packet::{NearestPacket, Packet};
-use crate::simd::{Row, Simd};
+use crate::packet::{NearestPacket, Packet, Pairs};
+use crate::simd::{ROW, Row, Simd};
 use accel::{Common, Nearest, Objects, Ray};
 
 /// Objects in a block: one bit each of a 64-bit word.
@@ -17,6 +17,11 @@ pub trait PackedObjects: Objects + Copy {
 
     /// Copies the objects into blocks: slot i holds object `order[i]`, or nothing for [`EMPTY_SLOT`].
     fn blocks(&self, order: &[u32]) -> Self::Blocks;
+
+    /// The same without a copy of geometry where there is a way: tests read the scene's own buffers, which costs time and saves memory.
+    fn blocks_in_place(&self, order: &[u32]) -> Self::Blocks {
+        self.blocks(order)
+    }
 }
 
 /// Objects packed in blocks of 64 slots, tested by mask.
@@ -38,26 +43,64 @@ pub trait Blocks: Send + Sync {
     /// Prepares `LANES` rays.
     fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Self::Many<S>;
 
-    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be deferred until [`Blocks::resolve`].
+    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be postponed until [`Blocks::settle`].
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest);
 
     /// Whether any object of `block` whose bit is set in `mask` is hit at t in
     /// `[ray.t_min, t_max]`.
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         let mut best = Nearest::new(t_max);
-        // A hit that is deferred is a certain one.
+        // A hit that is postponed is a certain one.
         self.closest(s, block, mask, ray, &mut best);
         best.object != Nearest::NONE
     }
 
-    /// Resolves what [`Blocks::closest`] deferred: before it, `best` holds an upper bound of t, after it a hit. By default
-    /// nothing is deferred.
+    /// Decides what [`Blocks::closest`] postponed: before it, `best` holds an upper bound of t, after it a hit. By default
+    /// nothing is postponed.
     #[inline(always)]
-    fn resolve(&self, ray: &Self::One, best: &mut Nearest) {
+    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
         let _ = (ray, best);
     }
 
-    /// Tests the object of one slot with `LANES` rays. Hits may be deferred until [`Blocks::resolve_packet`].
+    /// Whether [`Blocks::pairs`] is the better way for rays that meet a few objects of a block each, at instruction set `S`.
+    fn takes_pairs<S: Simd>() -> bool {
+        false
+    }
+
+    /// Tests pairs of one of up to [`ROW`] rays and an object of `block`, none of which is postponed; there is an object in each of these slots. `lanes` are the rays as a
+    /// packet. With `any`, a ray is done with its first hit, whichever it is.
+    fn pairs<S: Simd>(
+        &self,
+        s: S,
+        block: usize,
+        pairs: &Pairs,
+        lanes: &Packet<S>,
+        any: bool,
+        best: &mut [Nearest; ROW],
+    ) {
+        let _ = any;
+        self.pairs_one_by_one(s, block, pairs, lanes, best);
+    }
+
+    /// [`Blocks::pairs`], each by [`Blocks::closest`].
+    #[inline(always)]
+    fn pairs_one_by_one<S: Simd>(
+        &self,
+        s: S,
+        block: usize,
+        pairs: &Pairs,
+        lanes: &Packet<S>,
+        best: &mut [Nearest; ROW],
+    ) {
+        for (ray, slot) in pairs.rays.iter().zip(pairs.slots).take(pairs.len) {
+            let lane = usize::from(*ray);
+            let one = self.one(&lanes.ray(s, lane));
+            self.closest(s, block, 1 << slot, &one, &mut best[lane]);
+            self.settle(&one, &mut best[lane]);
+        }
+    }
+
+    /// Tests the object of one slot with `LANES` rays. Hits may be postponed until [`Blocks::settle_packet`].
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>);
 
     /// Rows of values for each 16 slots that [`Blocks::prepare`] computes.
@@ -89,9 +132,9 @@ pub trait Blocks: Send + Sync {
         self.packet(s, slot, rays, best);
     }
 
-    /// [`Blocks::resolve`] for what [`Blocks::packet`] deferred.
+    /// [`Blocks::settle`] for what [`Blocks::packet`] postponed.
     #[inline(always)]
-    fn resolve_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         let _ = (s, rays, best);
     }
 }

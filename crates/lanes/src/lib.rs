@@ -2,11 +2,13 @@
 //! of rays, bit maps along a path, and objects packed in blocks of 64.
 
 mod blocks;
+mod ids;
 mod one_by_one;
 pub mod packet;
 mod simd;
 
 pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects};
+pub use ids::Ids;
 pub use one_by_one::OneByOne;
 pub use simd::path;
-pub use simd::{Level, Portable, ROW, Row, Scalar, Simd, Task, prefetch};
+pub use simd::{Level, Portable, ROW, Row, SHARE, Scalar, Simd, Task, prefetch};

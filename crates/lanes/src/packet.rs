@@ -87,6 +87,67 @@ impl<S: Simd> Packet<S> {
     }
 }
 
+impl<S: Simd> Packet<S> {
+    /// The rays in the lanes whose numbers `at` holds.
+    #[inline(always)]
+    pub fn permuted(&self, s: S, at: S::U) -> Self {
+        let ([x, y, z], [dx, dy, dz]) = (self.origin, self.direction);
+        Self {
+            origin: [s.permute(x, at), s.permute(y, at), s.permute(z, at)],
+            direction: [s.permute(dx, at), s.permute(dy, at), s.permute(dz, at)],
+            t_min: s.permute(self.t_min, at),
+            t_max: s.permute(self.t_max, at),
+        }
+    }
+}
+
+/// The rays of a packet in memory.
+#[derive(Clone, Copy, Debug)]
+pub struct RayRows {
+    rows: [[f32; ROW]; 8],
+}
+
+impl RayRows {
+    /// Those of a packet.
+    #[inline(always)]
+    pub fn of<S: Simd>(s: S, rays: &Packet<S>) -> Self {
+        let mut rows = [[0.0; ROW]; 8];
+        s.store(rays.origin[0], &mut rows[0]);
+        s.store(rays.origin[1], &mut rows[1]);
+        s.store(rays.origin[2], &mut rows[2]);
+        s.store(rays.direction[0], &mut rows[3]);
+        s.store(rays.direction[1], &mut rows[4]);
+        s.store(rays.direction[2], &mut rows[5]);
+        s.store(rays.t_min, &mut rows[6]);
+        s.store(rays.t_max, &mut rows[7]);
+        Self { rows }
+    }
+
+    /// One lane's ray.
+    #[inline(always)]
+    pub fn ray(&self, lane: usize) -> Ray {
+        let rows = &self.rows;
+        Ray {
+            origin: Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane]),
+            direction: Vec3::new(rows[3][lane], rows[4][lane], rows[5][lane]),
+            t_min: rows[6][lane],
+            t_max: rows[7][lane],
+        }
+    }
+}
+
+/// Rays and objects to be tested with each other. There are as many of both as is a multiple of [`ROW`], but only the first
+/// `len` count.
+#[derive(Clone, Copy, Debug)]
+pub struct Pairs<'a> {
+    /// Places of rays among those given with the pairs.
+    pub rays: &'a [u8],
+    /// Places of objects in their block.
+    pub slots: &'a [u8],
+    /// How many pairs there are.
+    pub len: usize,
+}
+
 /// A vector in all lanes.
 #[inline(always)]
 pub fn splat3<S: Simd>(s: S, v: Vec3) -> Vec3Lanes<S> {
@@ -146,9 +207,9 @@ impl LaneRows {
 #[derive(Clone, Copy)]
 pub struct Bounds<S: Simd> {
     /// Which lanes may hit within their range of t.
-    pub undecided: S::M,
+    pub open: S::M,
     /// Which of them certainly hit, at a normal t above the ray's `t_min`.
-    pub certain: S::M,
+    pub sure: S::M,
     /// What hits does so at this t or above.
     pub low: S::F,
     /// What hits does so at this t or below.
@@ -160,11 +221,11 @@ impl<S: Simd> Bounds<S> {
     #[inline(always)]
     pub fn unknown(s: S) -> Self {
         let (low, high) = (s.splat(f32::NEG_INFINITY), s.splat(f32::INFINITY));
-        Self { undecided: s.mask(u32::MAX), certain: s.mask(0), low, high }
+        Self { open: s.mask(u32::MAX), sure: s.mask(0), low, high }
     }
 }
 
-/// The nearest hits so far of `LANES` rays; see [`Nearest`].
+/// The nearest hits so far of `LANES` rays, some of which may be postponed; see [`Nearest`].
 #[derive(Clone, Copy)]
 pub struct NearestPacket<S: Simd> {
     /// Each hit's t, or the ray's `t_max` (−∞ switches a lane off).
@@ -193,6 +254,22 @@ impl<S: Simd> NearestPacket<S> {
         self.take(s, wins, object, lanes);
     }
 
+    /// The lanes whose hits are postponed.
+    #[inline(always)]
+    pub fn postponed(&self, s: S) -> S::M {
+        s.eq(self.v, s.splat(Nearest::POSTPONED))
+    }
+
+    /// Takes and postpones those of the sure hits that come before what is here for certain, and tells which.
+    #[inline(always)]
+    pub fn postpone(&mut self, s: S, object: u32, sure: S::M, bounds: &Bounds<S>) -> S::M {
+        let low = s.select(self.postponed(s), self.u, self.t);
+        let wins = s.and(sure, s.lt(bounds.high, low));
+        let lanes = Lanes { hit: wins, t: bounds.high, u: bounds.low, v: s.splat(Nearest::POSTPONED) };
+        self.take(s, wins, object, &lanes);
+        wins
+    }
+
     /// The lanes where `lanes` hits at the same t as another object before.
     #[inline(always)]
     pub fn ties(&self, s: S, object: u32, lanes: &Lanes<S>) -> S::M {
@@ -219,6 +296,17 @@ impl<S: Simd> NearestPacket<S> {
         self.t = s.select(wins, lanes.t, self.t);
         self.u = s.select(wins, lanes.u, self.u);
         self.v = s.select(wins, lanes.v, self.v);
+    }
+
+    /// The first `LANES` of a row of results.
+    #[inline(always)]
+    pub fn load(s: S, from: &[Nearest; ROW]) -> Self {
+        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
+        let mut object = [0; ROW];
+        for (lane, nearest) in from.iter().enumerate() {
+            (t[lane], u[lane], v[lane], object[lane]) = (nearest.t, nearest.u, nearest.v, nearest.object);
+        }
+        Self { t: s.load(&t), object: s.load_u(&object), u: s.load(&u), v: s.load(&v) }
     }
 
     /// Each lane's result, in the order of lanes.

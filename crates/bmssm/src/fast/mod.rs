@@ -6,6 +6,7 @@ mod plan;
 mod serve;
 mod settings;
 
+pub use crate::general::Storage;
 pub use plan::Plan;
 pub use settings::Settings;
 
@@ -47,8 +48,8 @@ impl Builder for Bmssm {
     }
 
     fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        let plan = Plan::new(&self.settings, scene.geometry.len(), need);
         let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
+        let plan = Plan::new(&self.settings, scene.geometry.len(), need, limit);
         if plan.bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
         }

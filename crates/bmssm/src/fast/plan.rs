@@ -1,6 +1,7 @@
 //! What is built for a scene and a need, and why.
 
 use super::Settings;
+use crate::general::Storage;
 use crate::{general, raster};
 use accel::{Need, Raster};
 use lanes::BLOCK;
@@ -22,8 +23,8 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Plans for a scene of so many objects.
-    pub fn new(settings: &Settings, objects: usize, need: &Need) -> Self {
+    /// Plans for a scene of so many objects, to take at most `limit` bytes where that can be.
+    pub fn new(settings: &Settings, objects: usize, need: &Need, limit: u128) -> Self {
         let mut reasons = Vec::new();
         let mut bytes = 0;
         let raster = need.raster.map(|image| {
@@ -37,10 +38,18 @@ impl Plan {
             (image, settings.raster())
         });
         let general = need.general.then(|| {
-            let general =
-                general::Settings { simd: settings.simd, stretch: stretch(settings, objects, &mut reasons) };
-            bytes += objects.div_ceil(BLOCK) as u128 * GENERAL_BLOCK_BYTES;
-            general
+            let blocks = objects.div_ceil(BLOCK) as u128;
+            let least = bytes + blocks * GENERAL_BLOCK_BYTES;
+            let rows = least + blocks * ROWS_BLOCK_BYTES;
+            let (storage, why) = match settings.geometry {
+                Some(storage) => (storage, "as set"),
+                None if rows > limit => (Storage::Scene, "copies would take more than there is"),
+                None => (Storage::Rows, "a copy for speed"),
+            };
+            bytes = if storage == Storage::Rows { rows } else { least };
+            let stretch = stretch(settings, objects, &mut reasons);
+            reasons.push(format!("geometry={}: {why}", storage.id()));
+            general::Settings { simd: settings.simd, stretch, storage }
         });
         Self { objects, raster, general, bytes, reasons }
     }
@@ -49,8 +58,11 @@ impl Plan {
 /// Per object: maps, and a copy of its geometry.
 const RASTER_BYTES: u32 = 16 + 52;
 
-/// Per block: maps, its share of the tree, and a copy of 64 objects' geometry.
-const GENERAL_BLOCK_BYTES: u128 = 224 + 112 + 52 * BLOCK as u128;
+/// Per block: maps, its share of the tree, and the numbers of 64 objects.
+const GENERAL_BLOCK_BYTES: u128 = 224 + 112 + 4 * BLOCK as u128;
+
+/// Per block: a copy of 64 objects' geometry.
+const ROWS_BLOCK_BYTES: u128 = 48 * BLOCK as u128;
 
 fn stretch(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> usize {
     let (stretch, why) = match settings.stretch {

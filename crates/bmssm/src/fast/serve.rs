@@ -15,7 +15,7 @@ pub(super) struct Built<O: PackedObjects> {
 }
 
 /// Rays of a list that one task of the thread pool traces.
-const CHUNK: usize = 2048;
+const CHUNK: usize = 1 << 13;
 
 impl<O: PackedObjects> Built<O> {
     pub fn new(objects: O, plan: Plan) -> Self {

@@ -1,5 +1,6 @@
 //! What `bmssm` can be told. Every choice of the plan can be overridden.
 
+use crate::general::Storage;
 use crate::{general, raster};
 use accel::settings::{self, none_of, number};
 use lanes::{BLOCK, Level};
@@ -16,6 +17,8 @@ pub struct Settings {
     /// Objects up to which a part of the scene is split object by object, larger ones by clusters of neighbours;
     /// `None` leaves it to the plan.
     pub stretch: Option<usize>,
+    /// Where the objects are tested by rays of any kind; `None` leaves it to the plan.
+    pub geometry: Option<Storage>,
     /// Slices across a tile of an image.
     pub tile: u32,
     /// How much longer a block of an image is in depth than it is wide: a power of two's exponent.
@@ -29,18 +32,22 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         let raster::Settings { kernel, simd, tile, depth_bits, apart } = raster::Settings::default();
-        Self { kernel, simd, stretch: None, tile, depth_bits, apart, memory: None }
+        Self { kernel, simd, stretch: None, geometry: None, tile, depth_bits, apart, memory: None }
     }
 }
 
 impl Settings {
     /// Names and meanings, for help texts.
-    pub const NAMES: [(&str, &str); 7] = [
+    pub const NAMES: [(&str, &str); 8] = [
         ("kernel", "ray-triangle test; quantised and box are lossy"),
         ("simd", "instruction set"),
         (
             "stretch",
             "objects that are split one by one and not by clusters: auto, or 64 to 4096; fewer build faster and trace slower",
+        ),
+        (
+            "geometry",
+            "what rays of any kind are tested with: auto, rows (copied for speed) or scene (nothing copied)",
         ),
         ("tile", "slices of 4 pixels across a tile of an image, 1 to 16"),
         ("depth_bits", "how much longer than wide a block of an image is, as a power of two, 0 to 8"),
@@ -58,6 +65,12 @@ impl Settings {
             "simd" => self.simd = Level::parse(value)?,
             "stretch" if value == "auto" => self.stretch = None,
             "stretch" => self.stretch = Some(number(value, BLOCK, general::MOST_STRETCH)?),
+            "geometry" if value == "auto" => self.geometry = None,
+            "geometry" => {
+                let ids = Storage::ALL.map(Storage::id);
+                let found = Storage::ALL.into_iter().find(|storage| storage.id() == value);
+                self.geometry = Some(found.ok_or_else(|| none_of(value, ids))?);
+            }
             "tile" => self.tile = number(value, 1, 16)?,
             "depth_bits" => self.depth_bits = number(value, 0, 8)?,
             "apart" => self.apart = number(value, 1, 1 << 16)?,
@@ -75,11 +88,12 @@ impl Settings {
 
 impl fmt::Display for Settings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { kernel, simd, stretch, tile, depth_bits, apart, memory } = self;
+        let Self { kernel, simd, stretch, geometry, tile, depth_bits, apart, memory } = self;
+        let geometry = geometry.map_or("auto", Storage::id);
         let stretch = stretch.map_or("auto".to_owned(), |stretch| stretch.to_string());
         write!(
             f,
-            "kernel={kernel} simd={} stretch={stretch} tile={tile} depth_bits={depth_bits} apart={apart}",
+            "kernel={kernel} simd={} stretch={stretch} geometry={geometry} tile={tile} depth_bits={depth_bits} apart={apart}",
             simd.id()
         )?;
         memory.map_or(Ok(()), |bytes| write!(f, " memory={bytes}"))

@@ -72,7 +72,7 @@ fn the_plan_bounds_what_is_built() {
     let scene = scene();
     for need in [Need::raster(image()), Need::GENERAL] {
         let bmssm = Bmssm::default();
-        let plan = Plan::new(&bmssm.settings, scene.geometry.len(), &need);
+        let plan = Plan::new(&bmssm.settings, scene.geometry.len(), &need, u128::MAX);
         let footprint = bmssm.build(&scene, &need).unwrap().footprint();
         assert!(footprint.bytes(Group::Structure) > 0);
         assert!(footprint.total() as u128 <= plan.bytes + 4096, "{footprint:?} {}", plan.bytes);
@@ -84,7 +84,8 @@ fn the_plan_bounds_what_is_built() {
 
 #[test]
 fn every_setting_is_read_as_it_is_written() {
-    let text = "kernel=watertight simd=portable stretch=512 tile=4 depth_bits=1 apart=9 memory=123";
+    let text =
+        "kernel=watertight simd=portable stretch=512 geometry=scene tile=4 depth_bits=1 apart=9 memory=123";
     let mut settings = Settings::default();
     for (name, value) in text.split(' ').map(|pair| pair.split_once('=').unwrap()) {
         settings.set(name, value).unwrap();

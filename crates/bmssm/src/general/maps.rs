@@ -13,9 +13,10 @@ use lanes::{BLOCK, Simd};
 pub struct BlockMaps {
     /// `maps[0]` is R, `maps[1]` is S, `maps[2]` is T; one word for each slice.
     maps: [[u64; SLICES]; 3],
-    origin: [f32; 3],
+    /// Lower corner of the box.
+    pub(super) origin: [f32; 3],
     /// Slices per unit of length.
-    density: [f32; 3],
+    pub(super) density: [f32; 3],
 }
 
 impl BlockMaps {
@@ -81,6 +82,14 @@ impl BlockMaps {
             slope: [way[b] * per_slice, way[c] * per_slice],
         };
         s.path_union([&self.maps[axis], &self.maps[b], &self.maps[c]], &path)
+    }
+
+    /// The candidates of a path along which `axis` is the dominant one.
+    #[inline(always)]
+    pub(super) fn along<S: Simd>(&self, s: S, axis: usize, path: &Path) -> u64 {
+        let maps = &self.maps;
+        let (axis, b, c) = ([0, 1, 2][axis], [1, 2, 0][axis], [2, 0, 1][axis]);
+        s.path_union([&maps[axis], &maps[b], &maps[c]], path)
     }
 
     #[inline(always)]

@@ -5,17 +5,19 @@ mod item;
 mod maps;
 mod order;
 mod split;
+mod stream;
 mod trace;
 mod tree;
 mod unit_box;
 
 use accel::grid::Grid;
-use accel::{Count, Footprint, Hit, NoCount, Ray, vec_bytes};
+use accel::{Count, Footprint, Hit, Nearest, NoCount, Ray, vec_bytes};
 use item::Scene;
 use lanes::{Blocks, Level, PackedObjects, Portable, Simd, Task};
 use maps::BlockMaps;
 use order::Order;
 use split::Shape;
+use stream::{Room, STREAM};
 use trace::Stack;
 use tree::Node;
 
@@ -25,6 +27,28 @@ pub const MOST_STRETCH: usize = order::PART;
 /// Objects that are split object by object unless told otherwise.
 pub const STRETCH: usize = MOST_STRETCH;
 
+/// Where objects are when rays of any kind are tested with them. Answers are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Copied into rows, block by block.
+    Rows,
+    /// Where the scene has them.
+    Scene,
+}
+
+impl Storage {
+    /// All there are, fastest first.
+    pub const ALL: [Self; 2] = [Self::Rows, Self::Scene];
+
+    /// Name as used in settings.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Rows => "rows",
+            Self::Scene => "scene",
+        }
+    }
+}
+
 /// How the maps for rays of any kind are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
@@ -33,6 +57,8 @@ pub struct Settings {
     /// Objects up to which a part of the scene is split object by object, larger ones by clusters of
     /// neighbours; at most [`MOST_STRETCH`].
     pub stretch: usize,
+    /// Where objects are when they are tested.
+    pub storage: Storage,
 }
 
 /// The maps of a scene for rays of any kind.
@@ -56,7 +82,11 @@ impl<O: PackedObjects> General<O> {
         let shape = Shape { extent };
         let Order { slots, maps, blocks } = Order::new(&shape, items, keys, settings);
         let nodes = tree::over(&shape, blocks, simd);
-        Self { frame, maps, nodes, objects: objects.blocks(&slots), simd }
+        let objects = match settings.storage {
+            Storage::Rows => objects.blocks(&slots),
+            Storage::Scene => objects.blocks_in_place(&slots),
+        };
+        Self { frame, maps, nodes, objects, simd }
     }
 
     /// The nearest hit of each ray.
@@ -94,9 +124,17 @@ impl<O: PackedObjects> Task for Closest<'_, O> {
     type Out = ();
     #[inline(always)]
     fn run<S: Simd>(self, s: S) {
-        let mut stack = Stack::default();
-        for (ray, hit) in self.rays.iter().zip(self.hits) {
+        if let ([ray], [hit]) = (self.rays, &mut *self.hits) {
+            let mut stack = Stack::default();
             *hit = self.general.nearest::<S, NoCount, false>(s, ray, &mut stack, &mut NoCount).hit();
+            return;
+        }
+        let mut room = Room::default();
+        for (rays, hits) in self.rays.chunks(STREAM).zip(self.hits.chunks_mut(STREAM)) {
+            self.general.stream::<S, NoCount, false>(s, rays, &mut room, &mut NoCount);
+            for (hit, best) in hits.iter_mut().zip(&room.best) {
+                *hit = best.hit();
+            }
         }
     }
 }
@@ -111,10 +149,18 @@ impl<O: PackedObjects> Task for Occluded<'_, O> {
     type Out = ();
     #[inline(always)]
     fn run<S: Simd>(self, s: S) {
-        let mut stack = Stack::default();
-        for (ray, occluded) in self.rays.iter().zip(self.occluded) {
+        if let ([ray], [occluded]) = (self.rays, &mut *self.occluded) {
+            let mut stack = Stack::default();
             *occluded =
                 self.general.nearest::<S, NoCount, true>(s, ray, &mut stack, &mut NoCount).hit().is_some();
+            return;
+        }
+        let mut room = Room::default();
+        for (rays, occluded) in self.rays.chunks(STREAM).zip(self.occluded.chunks_mut(STREAM)) {
+            self.general.stream::<S, NoCount, true>(s, rays, &mut room, &mut NoCount);
+            for (occluded, best) in occluded.iter_mut().zip(&room.best) {
+                *occluded = best.object != Nearest::NONE;
+            }
         }
     }
 }
@@ -130,12 +176,12 @@ impl<O: PackedObjects, C: Count> Task for Counted<'_, O, C> {
     type Out = C;
     #[inline(always)]
     fn run<S: Simd>(mut self, s: S) -> C {
-        let mut stack = Stack::default();
-        for ray in self.rays {
+        let mut room = Room::default();
+        for rays in self.rays.chunks(STREAM) {
             if self.occlusion {
-                self.general.nearest::<S, C, true>(s, ray, &mut stack, &mut self.count);
+                self.general.stream::<S, C, true>(s, rays, &mut room, &mut self.count);
             } else {
-                self.general.nearest::<S, C, false>(s, ray, &mut stack, &mut self.count);
+                self.general.stream::<S, C, false>(s, rays, &mut room, &mut self.count);
             }
         }
         self.count

@@ -291,7 +291,7 @@ mod tests {
     fn coinciding_objects_are_ordered_too() {
         let boxes: Vec<Item> = (0..9000).map(|i| point(i, [0.5; 3])).collect();
         let keys = (0..9000).map(|i| morton::keyed(7, i)).collect();
-        let settings = Settings { simd: Level::Portable, stretch: 128 };
+        let settings = Settings { simd: Level::Portable, stretch: 128, storage: super::super::Storage::Rows };
         let order = Order::new(&Shape { extent: [1.0; 3] }, boxes, keys, settings);
         assert_eq!(order.blocks.len(), order.maps.len());
         let mut slots: Vec<u32> = order.slots.into_iter().filter(|slot| *slot != EMPTY_SLOT).collect();

@@ -63,21 +63,33 @@ impl<'s> WithObjects<'s> for Differences<'_> {
     type Out = usize;
     fn objects<O: PackedObjects + 's>(self, objects: O) -> usize {
         let Self(rays, reference, simd, stretch) = self;
-        let maps = General::new(&objects, Settings { simd, stretch });
-        let mut hits = vec![None; rays.len()];
-        maps.closest(rays, &mut hits);
-        let mut occluded = vec![false; rays.len()];
-        maps.occluded(rays, &mut occluded);
-        let same = |(i, hit): (usize, &Option<Hit>)| {
-            let bits = match (hit, &reference[i]) {
-                (Some(a), Some(b)) => a.same_bits(b),
-                (None, None) => true,
-                _ => false,
-            };
-            bits && occluded[i] == hit.is_some()
+        let of = |storage| {
+            differences(&General::new(&objects, Settings { simd, stretch, storage }), rays, reference)
         };
-        hits.iter().enumerate().filter(|pair| !same(*pair)).count()
+        Storage::ALL.map(of).iter().sum()
     }
+}
+
+/// Rays answered otherwise than by brute force, in a list or one by one.
+fn differences<O: PackedObjects>(maps: &General<O>, rays: &[Ray], reference: &[Option<Hit>]) -> usize {
+    let (mut hits, mut single) = (vec![None; rays.len()], vec![None; rays.len()]);
+    let (mut occluded, mut alone) = (vec![false; rays.len()], vec![false; rays.len()]);
+    maps.closest(rays, &mut hits);
+    maps.occluded(rays, &mut occluded);
+    for (i, ray) in rays.iter().enumerate() {
+        maps.closest(std::slice::from_ref(ray), &mut single[i..=i]);
+        maps.occluded(std::slice::from_ref(ray), &mut alone[i..=i]);
+    }
+    let same = |i: &usize| {
+        let bits = |hit: &Option<Hit>| match (hit, &reference[*i]) {
+            (Some(a), Some(b)) => a.same_bits(b),
+            (None, None) => true,
+            _ => false,
+        };
+        let there = reference[*i].is_some();
+        bits(&hits[*i]) && bits(&single[*i]) && occluded[*i] == there && alone[*i] == there
+    };
+    (0..rays.len()).filter(|i| !same(i)).count()
 }
 
 fn assert_no_differences(geometry: Geometry, rays: &[Ray]) -> usize {
@@ -151,7 +163,10 @@ fn the_tree_holds_every_object_once_and_full_blocks() {
     impl<'s> WithObjects<'s> for Slots {
         type Out = (Vec<u32>, usize);
         fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
-            let maps = General::new(&objects, Settings { simd: Level::Portable, stretch: MOST_STRETCH });
+            let maps = General::new(
+                &objects,
+                Settings { simd: Level::Portable, stretch: MOST_STRETCH, storage: Storage::Rows },
+            );
             let slots = (0..maps.maps.len() * BLOCK).map(|slot| maps.objects.object(slot));
             (slots.filter(|object| *object != EMPTY_SLOT).collect(), maps.maps.len())
         }

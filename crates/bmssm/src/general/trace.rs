@@ -39,7 +39,7 @@ impl Way {
 }
 
 #[inline(always)]
-fn at_least(component: f32) -> f32 {
+pub(super) fn at_least(component: f32) -> f32 {
     if component.abs() < LEAST { LEAST.copysign(component) } else { component }
 }
 
@@ -150,7 +150,7 @@ impl<O: PackedObjects> General<O> {
             }
             next = stack.pop(limit);
         }
-        self.objects.resolve(&prepared, &mut best);
+        self.objects.settle(&prepared, &mut best);
         best
     }
 }

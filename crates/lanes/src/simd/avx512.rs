@@ -1,11 +1,11 @@
 //! Sixteen lanes of AVX-512.
 
 use super::path::{Path, SLICES};
-use super::{Simd, Task};
+use super::{ROW, Row, SHARE, Simd, Task};
 use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
 
-/// Proof that AVX-512 F, BW, DQ and VL are present: only [`run`] makes one.
+/// Proof that AVX-512 F, BW, DQ, VL and VBMI2 are present: only [`run`] makes one.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx512(());
 
@@ -13,7 +13,7 @@ pub struct Avx512(());
 ///
 /// The caller has checked `Level::Avx512.available()`.
 pub(super) fn run<T: Task>(task: T) -> T::Out {
-    #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi2,avx2,bmi1,bmi2,lzcnt,popcnt")]
     fn inner<T: Task>(task: T) -> T::Out {
         task.run(Avx512(()))
     }
@@ -142,6 +142,94 @@ impl Simd for Avx512 {
         let to = &mut to[..16];
         // SAFETY: the token proves the features; the slice has 16 integers.
         unsafe { _mm512_storeu_epi32(to.as_mut_ptr().cast(), v) }
+    }
+
+    #[inline(always)]
+    fn load_quads(self, from: &[&[f32; 4]; ROW]) -> [Self::F; 4] {
+        // SAFETY: the token proves the features; each place has four floats.
+        unsafe {
+            let mut rows = [_mm512_setzero_ps(); 4];
+            for (i, row) in rows.iter_mut().enumerate() {
+                let mut quads = [_mm_setzero_ps(); 4];
+                for (k, quad) in quads.iter_mut().enumerate() {
+                    *quad = _mm_loadu_ps(from[i + 4 * k].as_ptr());
+                }
+                let low = _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(quads[0]), quads[1]);
+                let high = _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(quads[2]), quads[3]);
+                *row = _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high);
+            }
+            let [a, b, c, d] = rows;
+            let ab = [_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b)];
+            let cd = [_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d)];
+            let mut columns = [a; 4];
+            for half in 0..2 {
+                let (ab, cd) = (_mm512_castps_pd(ab[half]), _mm512_castps_pd(cd[half]));
+                columns[2 * half] = _mm512_castpd_ps(_mm512_unpacklo_pd(ab, cd));
+                columns[2 * half + 1] = _mm512_castpd_ps(_mm512_unpackhi_pd(ab, cd));
+            }
+            columns
+        }
+    }
+    #[inline(always)]
+    fn load_bytes(self, from: &[u8]) -> Self::U {
+        let from = &from[..16];
+        // SAFETY: the token proves the features; the slice has 16 bytes.
+        unsafe { _mm512_cvtepu8_epi32(_mm_loadu_si128(from.as_ptr().cast())) }
+    }
+    #[inline(always)]
+    fn lookup(self, table: [&Row; 4], at: Self::U) -> Self::F {
+        let [a, b, c, d] =
+            [self.load(&table[0].0), self.load(&table[1].0), self.load(&table[2].0), self.load(&table[3].0)];
+        intrinsic!({
+            let upper = _mm512_test_epi32_mask(at, _mm512_set1_epi32(32));
+            let (low, high) = (_mm512_permutex2var_ps(a, at, b), _mm512_permutex2var_ps(c, at, d));
+            _mm512_mask_blend_ps(upper, low, high)
+        })
+    }
+    #[inline(always)]
+    fn permute(self, v: Self::F, at: Self::U) -> Self::F {
+        intrinsic!(_mm512_permutexvar_ps(at, v))
+    }
+    #[inline(always)]
+    fn set_bits(self, bits: u64, to: &mut [u8; 64]) -> usize {
+        const NUMBERS: [u8; 64] = {
+            let mut numbers = [0; 64];
+            let mut i = 0;
+            while i < 64 {
+                numbers[i] = i as u8;
+                i += 1;
+            }
+            numbers
+        };
+        // SAFETY: the token proves the features; both arrays have 64 bytes.
+        unsafe {
+            let numbers = _mm512_loadu_epi8(NUMBERS.as_ptr().cast());
+            _mm512_storeu_epi8(to.as_mut_ptr().cast(), _mm512_maskz_compress_epi8(bits, numbers));
+        }
+        bits.count_ones() as usize
+    }
+    #[inline(always)]
+    fn distribute(
+        self,
+        ids: &[u16; SHARE],
+        marks: &[u16; SHARE],
+        lists: &mut [u16],
+        stride: usize,
+        lens: &mut [u32; ROW],
+    ) {
+        // SAFETY: the token proves the features; both arrays have 32 integers.
+        let (ids, marks) =
+            unsafe { (_mm512_loadu_epi16(ids.as_ptr().cast()), _mm512_loadu_epi16(marks.as_ptr().cast())) };
+        for (list, len) in lens.iter_mut().enumerate() {
+            let first = list * stride + *len as usize;
+            let to = &mut lists[first..first + SHARE];
+            // SAFETY: the token proves the features; the slice has 32 integers.
+            unsafe {
+                let marked = _mm512_test_epi16_mask(marks, _mm512_set1_epi16((1u16 << list).cast_signed()));
+                _mm512_storeu_epi16(to.as_mut_ptr().cast(), _mm512_maskz_compress_epi16(marked, ids));
+                *len += marked.count_ones();
+            }
+        }
     }
 
     /// All eight steps at once: words are looked up by permuting a register.

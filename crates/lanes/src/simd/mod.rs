@@ -33,6 +33,9 @@ pub const ROW: usize = 16;
 #[repr(C, align(64))]
 pub struct Row(pub [f32; ROW]);
 
+/// Ids that are distributed at once.
+pub const SHARE: usize = 32;
+
 /// Asks for the memory at a place that is soon to be read, where there is an instruction for it.
 #[inline(always)]
 pub fn prefetch<T>(place: &T) {
@@ -121,6 +124,91 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// If the slice is shorter.
     fn load_short(self, from: &[u16]) -> Self::F;
 
+    /// Element i of the result holds element i of each of the first `LANES` places.
+    #[inline(always)]
+    fn load_quads(self, from: &[&[f32; 4]; ROW]) -> [Self::F; 4] {
+        let mut rows = [[0.0; ROW]; 4];
+        for (lane, from) in from.iter().enumerate().take(Self::LANES) {
+            for (row, value) in rows.iter_mut().zip(*from) {
+                row[lane] = *value;
+            }
+        }
+        [self.load(&rows[0]), self.load(&rows[1]), self.load(&rows[2]), self.load(&rows[3])]
+    }
+
+    /// The first `LANES` bytes of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    #[inline(always)]
+    fn load_bytes(self, from: &[u8]) -> Self::U {
+        let mut wide = [0; ROW];
+        for (wide, byte) in wide.iter_mut().zip(&from[..Self::LANES]) {
+            *wide = u32::from(*byte);
+        }
+        self.load_u(&wide)
+    }
+
+    /// The entries of a table of 64, in rows of 16, whose numbers the lanes hold; only their lowest six bits count.
+    #[inline(always)]
+    fn lookup(self, table: [&Row; 4], at: Self::U) -> Self::F {
+        let (mut places, mut found) = ([0; ROW], [0.0; ROW]);
+        self.store_u(at, &mut places);
+        for (found, place) in found.iter_mut().zip(places).take(Self::LANES) {
+            *found = table[place as usize / ROW % 4].0[place as usize % ROW];
+        }
+        self.load(&found)
+    }
+
+    /// The lanes of `v` whose numbers `at` holds; only their lowest bits count.
+    #[inline(always)]
+    fn permute(self, v: Self::F, at: Self::U) -> Self::F {
+        let (mut places, mut from, mut found) = ([0; ROW], [0.0; ROW], [0.0; ROW]);
+        self.store_u(at, &mut places);
+        self.store(v, &mut from);
+        for (found, place) in found.iter_mut().zip(places).take(Self::LANES) {
+            *found = from[place as usize % Self::LANES];
+        }
+        self.load(&found)
+    }
+
+    /// Writes the numbers of the bits that are set, lowest first, to the front of `to`, and tells how many they are. What
+    /// comes after them in `to` may change as well.
+    #[inline(always)]
+    fn set_bits(self, mut bits: u64, to: &mut [u8; 64]) -> usize {
+        let count = bits.count_ones() as usize;
+        for to in &mut to[..count] {
+            *to = bits.trailing_zeros() as u8;
+            bits &= bits - 1;
+        }
+        count
+    }
+
+    /// Appends each of the ids to the lists whose bits are set in its marks. List k holds `lens[k]` ids from `k·stride` on; what
+    /// comes after them may change as well.
+    ///
+    /// # Panics
+    /// If a list has no room for [`SHARE`] more.
+    #[inline(always)]
+    fn distribute(
+        self,
+        ids: &[u16; SHARE],
+        marks: &[u16; SHARE],
+        lists: &mut [u16],
+        stride: usize,
+        lens: &mut [u32; ROW],
+    ) {
+        for (id, marks) in ids.iter().zip(marks) {
+            let mut marks = *marks;
+            while marks != 0 {
+                let list = marks.trailing_zeros() as usize % ROW;
+                marks &= marks - 1;
+                lists[list * stride + lens[list] as usize] = *id;
+                lens[list] += 1;
+            }
+        }
+    }
+
     /// The bits that a path through three maps meets; see [`path::Path`].
     #[inline(always)]
     fn path_union(self, maps: [&[u64; path::SLICES]; 3], path: &path::Path) -> u64 {
@@ -143,7 +231,7 @@ pub enum Level {
     Portable,
     /// x86-64 with AVX2.
     Avx2,
-    /// x86-64 with AVX-512 F, BW, DQ and VL.
+    /// x86-64 with AVX-512 F, BW, DQ, VL and VBMI2: Intel's processors since Ice Lake, AMD's since Zen 4.
     Avx512,
     /// aarch64, where it is always present.
     Neon,
@@ -189,6 +277,7 @@ impl Level {
                     && is_x86_feature_detected!("avx512bw")
                     && is_x86_feature_detected!("avx512dq")
                     && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512vbmi2")
             }
             #[cfg(target_arch = "aarch64")]
             Self::Neon => true,

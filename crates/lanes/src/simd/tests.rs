@@ -45,6 +45,22 @@ impl Task for Everything {
             let mut floats = [0.0; ROW];
             s.store(s.load_short(&short[at..]), &mut floats);
             out.extend(floats[..S::LANES].iter().map(|l| l.to_bits()));
+            let bytes: [u8; ROW] = std::array::from_fn(|i| (i * 37) as u8);
+            let places = s.load_bytes(&bytes[at..]);
+            let table: [Row; 4] = std::array::from_fn(|k| Row(std::array::from_fn(|i| (16 * k + i) as f32)));
+            s.store(s.lookup([&table[0], &table[1], &table[2], &table[3]], places), &mut floats);
+            out.extend(floats[..S::LANES].iter().map(|l| l.to_bits()));
+            s.store(s.permute(x, places), &mut floats);
+            for (lane, found) in floats.iter().enumerate().take(S::LANES) {
+                let from = a[at + usize::from(bytes[at + lane]) % S::LANES];
+                assert_eq!(found.to_bits(), from.to_bits());
+            }
+            let quads: [[f32; 4]; ROW] =
+                std::array::from_fn(|i| std::array::from_fn(|k| (4 * (i + at) + k) as f32));
+            for column in s.load_quads(&std::array::from_fn(|i| &quads[i])) {
+                s.store(column, &mut floats);
+                out.extend(floats[..S::LANES].iter().map(|l| l.to_bits()));
+            }
             let mut ids = [0; ROW];
             s.store_u(s.load_u(&wide[at..]), &mut ids);
             out.extend(&ids[..S::LANES]);
@@ -64,6 +80,43 @@ fn all_levels_compute_the_same_bits() {
     assert_eq!(Everything.run(Scalar), reference, "scalar");
     for level in Level::here() {
         assert_eq!(level.run(Everything), reference, "{level:?}");
+    }
+}
+
+/// Numbers of set bits, and ids sorted to lists.
+struct Sorted(u64);
+
+impl Task for Sorted {
+    type Out = (Vec<u8>, Vec<Vec<u16>>);
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> Self::Out {
+        let mut numbers = [0; 64];
+        let len = s.set_bits(self.0, &mut numbers);
+        const STRIDE: usize = 3 * SHARE;
+        let (mut lists, mut lens) = ([0; STRIDE * ROW], [0; ROW]);
+        for round in 0..2u16 {
+            let ids = std::array::from_fn(|i| 1000 * round + i as u16);
+            let marks = std::array::from_fn(|i| (self.0 >> (i as u16 % 7 * 5 + round)) as u16);
+            s.distribute(&ids, &marks, &mut lists, STRIDE, &mut lens);
+        }
+        let list = |k: usize| lists[k * STRIDE..k * STRIDE + lens[k] as usize].to_vec();
+        (numbers[..len].to_vec(), (0..ROW).map(list).collect())
+    }
+}
+
+#[test]
+fn bits_and_ids_are_sorted_alike() {
+    for bits in [0, u64::MAX, 1, 1 << 63, 0x0123_4567_89ab_cdef, 0x8000_0001_0010_0500] {
+        let reference = Sorted(bits).run(Portable);
+        let numbers: Vec<u8> = (0..64).filter(|i| bits >> i & 1 != 0).collect();
+        assert_eq!(reference.0, numbers);
+        let marked = |i: usize, round: usize, k: usize| (bits >> (i % 7 * 5 + round)) as u16 >> k & 1 != 0;
+        let count = |k| (0..2 * SHARE).filter(|n| marked(n % SHARE, n / SHARE, k)).count();
+        assert!(reference.1.iter().enumerate().all(|(k, list)| list.len() == count(k)));
+        for level in Level::here() {
+            assert_eq!(level.run(Sorted(bits)), reference, "{level:?}");
+        }
     }
 }
 

@@ -1,8 +1,9 @@
 //! Möller and Trumbore's test in `f64`: the cheap way to be right nearly always.
 
-use super::wide::{OneRay, OneTriangle, Pairs, Products, RayRows};
+use super::wide::{OneRay, OneTriangle, Pairs, Products};
 use super::{Immediate, Kernel, KernelId, Unprepared};
 use accel::Ray;
+use lanes::packet::RayRows;
 use lanes::packet::{Lanes, Packet};
 use lanes::{ROW, Row, Simd};
 

@@ -88,6 +88,17 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// `LANES` rays against the triangle in lane `lane` of a group, with t up to `t_max`.
     fn rays<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S>;
 
+    /// Whether there is [`Kernel::each`].
+    const EACH: bool = false;
+
+    /// Each ray against the triangle in its own lane, given by its corners, with the bits of [`Kernel::rays`]. Called only for
+    /// kernels with [`Kernel::EACH`], which pack nine rows of corners and defer nothing.
+    #[inline(always)]
+    fn each<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S> {
+        let _ = (corners, t_max);
+        Lanes { hit: s.mask(0), t: rays.t_max, u: rays.t_max, v: rays.t_max }
+    }
+
     /// One ray against one triangle.
     #[inline]
     fn test(ray: &Self::One, corners: &Corners, t_max: f32) -> Option<Surface> {

@@ -40,6 +40,13 @@ impl Kernel for MollerTrumbore {
     fn rays<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
         test(s, rays, splat_corners(s, group, lane), t_max)
     }
+
+    const EACH: bool = true;
+
+    #[inline(always)]
+    fn each<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S> {
+        test(s, rays, corners, t_max)
+    }
 }
 
 impl Preparation<Self> for MollerTrumbore {

@@ -5,8 +5,8 @@
 
 use super::{Corners, unpack_corners};
 use accel::{Ray, Vec3};
-use lanes::packet::Packet;
-use lanes::{ROW, Row, Simd};
+use lanes::Row;
+use lanes::packet::RayRows;
 
 /// The differences and products of Möller and Trumbore's test.
 #[derive(Clone, Copy)]
@@ -38,40 +38,6 @@ impl Products {
             direction,
             det: dot(edge1, p),
             scaled: [dot(from_a, p), dot(direction, q), dot(edge2, q)],
-        }
-    }
-}
-
-/// The rays of a packet in memory.
-#[derive(Clone, Copy, Debug)]
-pub struct RayRows {
-    rows: [[f32; ROW]; 8],
-}
-
-impl RayRows {
-    #[inline(always)]
-    pub(super) fn of<S: Simd>(s: S, rays: &Packet<S>) -> Self {
-        let mut rows = [[0.0; ROW]; 8];
-        s.store(rays.origin[0], &mut rows[0]);
-        s.store(rays.origin[1], &mut rows[1]);
-        s.store(rays.origin[2], &mut rows[2]);
-        s.store(rays.direction[0], &mut rows[3]);
-        s.store(rays.direction[1], &mut rows[4]);
-        s.store(rays.direction[2], &mut rows[5]);
-        s.store(rays.t_min, &mut rows[6]);
-        s.store(rays.t_max, &mut rows[7]);
-        Self { rows }
-    }
-
-    /// One lane's ray.
-    #[inline(always)]
-    pub(super) fn ray(&self, lane: usize) -> Ray {
-        let rows = &self.rows;
-        Ray {
-            origin: Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane]),
-            direction: Vec3::new(rows[3][lane], rows[4][lane], rows[5][lane]),
-            t_min: rows[6][lane],
-            t_max: rows[7][lane],
         }
     }
 }

@@ -1,25 +1,24 @@
 //! Triangles as objects, with the kernel as a parameter.
 
 mod frame;
-mod ids;
+mod in_place;
 mod lattice;
 mod pack;
 mod packets;
-mod pending;
+mod pairs;
 mod single;
 #[cfg(test)]
 mod tests;
 
 use self::frame::{Frame, LIMIT_ROWS, Limits};
-use self::ids::Ids;
 use self::lattice::{Lattice, ShortRows};
 use crate::Kernel;
 use crate::kernel::load_corners;
 use crate::kernel::{Deferral, Preparation};
 use accel::Objects;
 use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
-use lanes::packet::{NearestPacket, Packet, Vec3Lanes};
-use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
+use lanes::packet::{NearestPacket, Packet, Pairs, Vec3Lanes};
+use lanes::{Blocks, EMPTY_SLOT, Ids, PackedObjects};
 use lanes::{ROW, Row, Simd};
 use std::cmp::Ordering;
 use std::marker::PhantomData;
@@ -116,6 +115,10 @@ impl<'s, K: Kernel> PackedObjects for Triangles<'s, K> {
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         pack::blocks(self, order)
     }
+
+    fn blocks_in_place(&self, order: &[u32]) -> Self::Blocks {
+        pack::blocks_in_place(self, order)
+    }
 }
 
 /// Triangles packed as rows of 16: four groups to a block.
@@ -127,6 +130,8 @@ pub struct TriangleBlocks<'s, K> {
     /// The corners of those that are.
     short: Vec<ShortRows>,
     ids: Ids,
+    /// Whether nothing is packed but numbers.
+    in_place: bool,
 }
 
 /// The lowest bit as a lane, taken off.
@@ -140,10 +145,10 @@ fn next_lane(bits: &mut u32) -> Option<usize> {
 /// Rows that hold the corners of triangles.
 const CORNER_ROWS: usize = 9;
 
-/// Scratch buffer for the rows of a group that have to be unpacked.
-struct Scratch([Row; CORNER_ROWS]);
+/// Room for the rows of a group that have to be unpacked.
+struct Room([Row; CORNER_ROWS]);
 
-impl Scratch {
+impl Room {
     const EMPTY: Self = Self([Row([0.0; ROW]); CORNER_ROWS]);
 }
 
@@ -157,10 +162,10 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
 
     /// The rows of a slot's group, in which the lanes `LANES` by `LANES` with that of the slot are unpacked.
     #[inline(always)]
-    fn group<'a, S: Simd>(&'a self, s: S, slot: usize, scratch: &'a mut Scratch) -> &'a [Row] {
+    fn group<'a, S: Simd>(&'a self, s: S, slot: usize, room: &'a mut Room) -> &'a [Row] {
         if K::QUANTISED {
-            self.unpack(s, slot, slot % ROW / S::LANES * S::LANES, &mut scratch.0);
-            return &scratch.0;
+            self.unpack(s, slot, slot % ROW / S::LANES * S::LANES, &mut room.0);
+            return &room.0;
         }
         self.packed(slot)
     }
@@ -243,8 +248,11 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
+        if self.in_place {
+            return self.one_in_place(s, block, mask, &ray.ray, false, best);
+        }
         if K::Deferral::DEFERS {
-            return self.defer_nearest(s, block, mask, ray, best);
+            return self.postpone_nearest(s, block, mask, ray, best);
         }
         self.visit(s, block, mask, ray, best.t, |object, surface| {
             self.offer_one(ray, object, surface, best);
@@ -254,6 +262,11 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
+        if self.in_place {
+            let mut best = Nearest::new(t_max);
+            self.one_in_place(s, block, mask, &ray.ray, true, &mut best);
+            return best.object != Nearest::NONE;
+        }
         if K::Deferral::DEFERS {
             return self.any_certain(s, block, mask, ray, t_max);
         }
@@ -266,20 +279,47 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn resolve(&self, ray: &Self::One, best: &mut Nearest) {
+    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
         if K::Deferral::DEFERS {
-            self.resolve_one(ray, best);
+            self.settle_one(ray, best);
         }
     }
 
     #[inline(always)]
+    fn takes_pairs<S: Simd>() -> bool {
+        K::EACH && S::LANES == ROW
+    }
+
+    #[inline(always)]
+    fn pairs<S: Simd>(
+        &self,
+        s: S,
+        block: usize,
+        pairs: &Pairs,
+        lanes: &Packet<S>,
+        any: bool,
+        best: &mut [Nearest; ROW],
+    ) {
+        if !K::EACH {
+            return self.pairs_one_by_one(s, block, pairs, lanes, best);
+        }
+        if self.in_place {
+            return self.pairs_in_place(s, block, pairs, lanes, any, best);
+        }
+        self.each_pair(s, block, pairs, lanes, any, best);
+    }
+
+    #[inline(always)]
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
-        let mut scratch = Scratch::EMPTY;
-        let group = self.group(s, slot, &mut scratch);
+        if self.in_place {
+            return self.packet_in_place(s, slot, &rays.rays, best);
+        }
+        let mut room = Room::EMPTY;
+        let group = self.group(s, slot, &mut room);
         if K::Deferral::DEFERS {
             let bounds = K::Deferral::bounds(s, &rays.prepared, group, slot % ROW, best.t);
-            if s.bits(bounds.undecided) != 0 {
-                self.defer(s, slot, rays, &bounds, best);
+            if s.bits(bounds.open) != 0 {
+                self.postpone(s, slot, rays, &bounds, best);
             }
             return;
         }
@@ -331,8 +371,8 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         let common = &self.triangles.frame.common(common);
         if K::Deferral::DEFERS {
             let bounds = K::Deferral::bounds_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
-            if s.bits(bounds.undecided) != 0 {
-                self.defer(s, slot, rays, &bounds, best);
+            if s.bits(bounds.open) != 0 {
+                self.postpone(s, slot, rays, &bounds, best);
             }
             return;
         }
@@ -343,9 +383,9 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn resolve_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         if K::Deferral::DEFERS {
-            self.resolve_lanes(s, rays, u32::MAX, best);
+            self.settle_lanes(s, rays, u32::MAX, best);
         }
     }
 }

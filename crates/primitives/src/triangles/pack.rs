@@ -1,9 +1,9 @@
 //! Packing triangles in an order.
 
-use super::ids::Ids;
 use super::{CORNER_ROWS, Kernel, TriangleBlocks, Triangles};
 use accel::parallel::for_each_chunk;
 use accel::{MeshRef, filled};
+use lanes::Ids;
 use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, prefetch};
 
 /// Groups by which memory is asked for before it is needed; twice as many for what says where.
@@ -37,7 +37,16 @@ pub(super) fn blocks<'s, K: Kernel>(triangles: &Triangles<'s, K>, order: &[u32])
             }
         });
     }
-    TriangleBlocks { triangles: *triangles, rows, short, ids: Ids::new(order) }
+    TriangleBlocks { triangles: *triangles, rows, short, ids: Ids::new(order), in_place: false }
+}
+
+/// Slot i holds triangle `order[i]`, of which nothing is copied.
+pub(super) fn blocks_in_place<'s, K: Kernel>(
+    triangles: &Triangles<'s, K>,
+    order: &[u32],
+) -> TriangleBlocks<'s, K> {
+    let ids = Ids::new(order);
+    TriangleBlocks { triangles: *triangles, rows: Vec::new(), short: Vec::new(), ids, in_place: true }
 }
 
 fn slots(order: &[u32], group: usize) -> impl Iterator<Item = u32> {

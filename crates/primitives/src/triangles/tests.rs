@@ -19,15 +19,15 @@ fn point(range: f32) -> impl Strategy<Value = Vec3> {
 struct ByMask<'a, B>(&'a B, &'a [Ray], u64);
 
 impl<B: Blocks> Task for ByMask<'_, B> {
-    type Out = Vec<[Nearest; 2]>;
+    type Out = Vec<[Nearest; 3]>;
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> Self::Out {
         let Self(blocks, rays, mask) = self;
-        let mut out = vec![[Nearest::new(f32::INFINITY); 2]; rays.len()];
-        for (ray, [one, _]) in rays.iter().zip(&mut out) {
+        let mut out = vec![[Nearest::new(f32::INFINITY); 3]; rays.len()];
+        for (ray, [one, ..]) in rays.iter().zip(&mut out) {
             blocks.closest(s, 0, mask, &blocks.one(ray), one);
-            blocks.resolve(&blocks.one(ray), one);
+            blocks.settle(&blocks.one(ray), one);
         }
         for first in (0..rays.len()).step_by(S::LANES) {
             let many = blocks.many(s, &Packet::load(s, &rays[first..]));
@@ -35,16 +35,29 @@ impl<B: Blocks> Task for ByMask<'_, B> {
             for slot in (0..BLOCK).filter(|slot| mask >> slot & 1 != 0) {
                 blocks.packet(s, slot, &many, &mut best);
             }
-            blocks.resolve_packet(s, &many, &mut best);
+            blocks.settle_packet(s, &many, &mut best);
             let mut stored = [Nearest::new(0.0); ROW];
             best.store(s, &mut stored);
+            let mut paired = [Nearest::new(f32::INFINITY); ROW];
+            let (mut places, mut slots, mut len) = ([0; PAIRS], [0; PAIRS], 0);
             for lane in 0..S::LANES {
-                out[first + lane][1] = stored[lane];
+                let there = |slot: &u8| mask >> slot & 1 != 0 && blocks.object((*slot).into()) != EMPTY_SLOT;
+                for slot in (0..BLOCK as u8).filter(there) {
+                    (places[len], slots[len]) = (lane as u8, slot);
+                    len += 1;
+                }
+            }
+            let pairs = Pairs { rays: &places, slots: &slots, len };
+            blocks.pairs(s, 0, &pairs, &Packet::load(s, &rays[first..]), false, &mut paired);
+            for lane in 0..S::LANES {
+                (out[first + lane][1], out[first + lane][2]) = (stored[lane], paired[lane]);
             }
         }
         out
     }
 }
+
+const PAIRS: usize = ROW * BLOCK;
 
 struct Compare<'a>(&'a Mesh, &'a [Ray], u64);
 
@@ -59,10 +72,12 @@ impl WithKernel for Compare<'_> {
             order.iter().map(|&id| if (id as usize) < objects.len() { id } else { EMPTY_SLOT }).collect();
         let blocks = objects.blocks(&order);
         let packed = OneByOne::new(objects, &order);
+        let in_place = objects.blocks_in_place(&order);
         for level in Level::here() {
             let fast = level.run(ByMask(&blocks, rays, mask));
             let plain = level.run(ByMask(&packed, rays, mask));
-            for ((ray, fast), plain) in rays.iter().zip(fast).zip(plain) {
+            let in_place = level.run(ByMask(&in_place, rays, mask));
+            for (((ray, fast), plain), in_place) in rays.iter().zip(fast).zip(plain).zip(in_place) {
                 let mut reference = Nearest::new(f32::INFINITY);
                 for slot in (0..BLOCK).filter(|slot| mask >> slot & 1 != 0 && order[*slot] != EMPTY_SLOT) {
                     if let Some(surface) = objects.intersect(order[slot], ray, f32::INFINITY) {
@@ -75,7 +90,7 @@ impl WithKernel for Compare<'_> {
                         );
                     }
                 }
-                for found in [fast, plain].into_iter().flatten() {
+                for found in [fast, plain, in_place].into_iter().flatten() {
                     assert_eq!(found.hit(), reference.hit(), "{} {level:?} {ray:?}", K::ID);
                 }
             }

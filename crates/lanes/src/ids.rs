@@ -1,11 +1,11 @@
 //! The numbers of packed objects in as few bytes as they need.
 
+use crate::EMPTY_SLOT;
 use accel::parallel::prelude::*;
-use lanes::EMPTY_SLOT;
 
 /// Numbers by slot: three bytes each where all are below 2²⁴ − 1, else four.
 #[derive(Clone, Debug)]
-pub(super) struct Ids {
+pub struct Ids {
     bytes: Vec<u8>,
     wide: bool,
 }
@@ -14,7 +14,8 @@ pub(super) struct Ids {
 const EMPTY_SHORT: u32 = EMPTY_SLOT >> 8;
 
 impl Ids {
-    pub(super) fn new(order: &[u32]) -> Self {
+    /// Slot i holds `order[i]`.
+    pub fn new(order: &[u32]) -> Self {
         const TASK: usize = 1 << 14;
         let wide =
             order.par_chunks(TASK).any(|ids| ids.iter().any(|id| (EMPTY_SHORT..EMPTY_SLOT).contains(id)));
@@ -30,7 +31,7 @@ impl Ids {
 
     /// The number in a slot, or [`EMPTY_SLOT`].
     #[inline(always)]
-    pub(super) fn get(&self, slot: usize) -> u32 {
+    pub fn get(&self, slot: usize) -> u32 {
         if self.wide {
             return u32::from_le_bytes(*self.bytes[4 * slot..].first_chunk().expect("a slot that there is"));
         }
@@ -39,13 +40,18 @@ impl Ids {
         if id == EMPTY_SHORT { EMPTY_SLOT } else { id }
     }
 
+    /// Whether there is no slot.
+    pub fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
     /// Number of slots.
-    pub(super) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.bytes.len() / if self.wide { 4 } else { 3 }
     }
 
     /// Bytes on the heap.
-    pub(super) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         accel::vec_bytes(&self.bytes)
     }
 }
