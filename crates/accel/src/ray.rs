@@ -111,10 +111,6 @@ pub struct Surface {
 
 /// The nearest hit so far of a ray under way. Nearest t wins; on equal t the lowest
 /// object number, so that the order of tests never shows in the answer.
-///
-/// A hit may be *postponed*: it is certain that an object is hit and that nothing so far is nearer, but t is known
-/// within bounds only. Then `t` is the upper bound, `u` the lower one, and `object` whatever the one who
-/// postponed it finds the object by ([`lanes::Blocks`]).
 #[derive(Clone, Copy, Debug)]
 pub struct Nearest {
     /// The hit's t, or the ray's `t_max` while there is none.
@@ -130,27 +126,6 @@ pub struct Nearest {
 impl Nearest {
     /// The object number that stands for "no hit yet". Scenes hold fewer objects.
     pub const NONE: u32 = u32::MAX;
-
-    /// The `v` of postponed hits. No hit has such a coordinate.
-    pub const POSTPONED: f32 = f32::INFINITY;
-
-    /// A postponed hit.
-    #[inline(always)]
-    pub const fn postponed(slot: usize, low: f32, high: f32) -> Self {
-        Self { t: high, object: slot as u32, u: low, v: Self::POSTPONED }
-    }
-
-    /// Whether the hit is postponed.
-    #[inline(always)]
-    pub fn is_postponed(&self) -> bool {
-        self.v == Self::POSTPONED
-    }
-
-    /// The hit's t or a lower bound of it.
-    #[inline(always)]
-    pub fn low(&self) -> f32 {
-        if self.is_postponed() { self.u } else { self.t }
-    }
 
     /// No hit yet; `t_max` itself is still within reach.
     #[inline]

@@ -78,7 +78,7 @@ impl<B: Blocks> Task for Trace<'_, B> {
             }
         }
         for (ray, best) in &mut state {
-            self.blocks.settle(ray, best);
+            self.blocks.resolve(ray, best);
         }
         state.into_iter().map(|(_, best)| best).collect()
     }

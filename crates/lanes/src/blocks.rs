@@ -43,22 +43,22 @@ pub trait Blocks: Send + Sync {
     /// Prepares `LANES` rays.
     fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Self::Many<S>;
 
-    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be postponed until [`Blocks::settle`].
+    /// Tests the objects of `block` whose bits are set in `mask`. Hits may be deferred until [`Blocks::resolve`].
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest);
 
     /// Whether any object of `block` whose bit is set in `mask` is hit at t in
     /// `[ray.t_min, t_max]`.
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         let mut best = Nearest::new(t_max);
-        // A hit that is postponed is a certain one.
+        // A hit that is deferred is a certain one.
         self.closest(s, block, mask, ray, &mut best);
         best.object != Nearest::NONE
     }
 
-    /// Decides what [`Blocks::closest`] postponed: before it, `best` holds an upper bound of t, after it a hit. By default
-    /// nothing is postponed.
+    /// Resolves what [`Blocks::closest`] deferred: before it, `best` holds an upper bound of t, after it a hit. By default
+    /// nothing is deferred.
     #[inline(always)]
-    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
+    fn resolve(&self, ray: &Self::One, best: &mut Nearest) {
         let _ = (ray, best);
     }
 
@@ -67,8 +67,8 @@ pub trait Blocks: Send + Sync {
         false
     }
 
-    /// Tests pairs of one of up to [`ROW`] rays and an object of `block`, none of which is postponed; there is an object in each of these slots. `lanes` are the rays as a
-    /// packet. With `any`, a ray is done with its first hit, whichever it is.
+    /// Tests pairs of one of up to [`ROW`] rays and an object of `block`, of which none is deferred; there is an object in each
+    /// of these slots. `lanes` are the rays as a packet. With `any`, a ray is done with its first hit, whichever it is.
     fn pairs<S: Simd>(
         &self,
         s: S,
@@ -96,11 +96,11 @@ pub trait Blocks: Send + Sync {
             let lane = usize::from(*ray);
             let one = self.one(&lanes.ray(s, lane));
             self.closest(s, block, 1 << slot, &one, &mut best[lane]);
-            self.settle(&one, &mut best[lane]);
+            self.resolve(&one, &mut best[lane]);
         }
     }
 
-    /// Tests the object of one slot with `LANES` rays. Hits may be postponed until [`Blocks::settle_packet`].
+    /// Tests the object of one slot with `LANES` rays. Hits may be deferred until [`Blocks::resolve_packet`].
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>);
 
     /// Rows of values for each 16 slots that [`Blocks::prepare`] computes.
@@ -132,9 +132,9 @@ pub trait Blocks: Send + Sync {
         self.packet(s, slot, rays, best);
     }
 
-    /// [`Blocks::settle`] for what [`Blocks::packet`] postponed.
+    /// [`Blocks::resolve`] for what [`Blocks::packet`] deferred.
     #[inline(always)]
-    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+    fn resolve_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         let _ = (s, rays, best);
     }
 }

@@ -207,9 +207,9 @@ impl LaneRows {
 #[derive(Clone, Copy)]
 pub struct Bounds<S: Simd> {
     /// Which lanes may hit within their range of t.
-    pub open: S::M,
+    pub undecided: S::M,
     /// Which of them certainly hit, at a normal t above the ray's `t_min`.
-    pub sure: S::M,
+    pub certain: S::M,
     /// What hits does so at this t or above.
     pub low: S::F,
     /// What hits does so at this t or below.
@@ -221,11 +221,11 @@ impl<S: Simd> Bounds<S> {
     #[inline(always)]
     pub fn unknown(s: S) -> Self {
         let (low, high) = (s.splat(f32::NEG_INFINITY), s.splat(f32::INFINITY));
-        Self { open: s.mask(u32::MAX), sure: s.mask(0), low, high }
+        Self { undecided: s.mask(u32::MAX), certain: s.mask(0), low, high }
     }
 }
 
-/// The nearest hits so far of `LANES` rays, some of which may be postponed; see [`Nearest`].
+/// The nearest hits so far of `LANES` rays; see [`Nearest`].
 #[derive(Clone, Copy)]
 pub struct NearestPacket<S: Simd> {
     /// Each hit's t, or the ray's `t_max` (−∞ switches a lane off).
@@ -252,22 +252,6 @@ impl<S: Simd> NearestPacket<S> {
         let tie = s.and(s.eq(lanes.t, self.t), s.lt_u(id, self.object));
         let wins = s.and(lanes.hit, s.or(s.lt(lanes.t, self.t), tie));
         self.take(s, wins, object, lanes);
-    }
-
-    /// The lanes whose hits are postponed.
-    #[inline(always)]
-    pub fn postponed(&self, s: S) -> S::M {
-        s.eq(self.v, s.splat(Nearest::POSTPONED))
-    }
-
-    /// Takes and postpones those of the sure hits that come before what is here for certain, and tells which.
-    #[inline(always)]
-    pub fn postpone(&mut self, s: S, object: u32, sure: S::M, bounds: &Bounds<S>) -> S::M {
-        let low = s.select(self.postponed(s), self.u, self.t);
-        let wins = s.and(sure, s.lt(bounds.high, low));
-        let lanes = Lanes { hit: wins, t: bounds.high, u: bounds.low, v: s.splat(Nearest::POSTPONED) };
-        self.take(s, wins, object, &lanes);
-        wins
     }
 
     /// The lanes where `lanes` hits at the same t as another object before.

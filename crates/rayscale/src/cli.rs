@@ -4,10 +4,10 @@
 
 use crate::console::{Console, Global};
 use crate::interrupt;
-use crate::verb::{Outcome, Verb};
-use crate::verbs::*;
-use ::scenes::Folders;
-use clap::{CommandFactory, Parser, Subcommand};
+use crate::verb::Outcome;
+use crate::verbs::{Command, welcome};
+use clap::{CommandFactory, Parser};
+use scenes::Folders;
 use std::process::ExitCode;
 
 /// Compares ray-tracing acceleration structures: time, memory and accuracy in one table.
@@ -20,52 +20,11 @@ struct Cli {
     command: Option<Command>,
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
-    Compare(compare::Compare),
-    Check(check::Check),
-    Measure(measure::Measure),
-    Report(report::Report),
-    Cmp(cmp::Cmp),
-    Rank(rank::Rank),
-    Recommend(recommend::Recommend),
-    Diff(diff::Diff),
-    Render(render::Render),
-    Trace(trace::Trace),
-    Scenes(scenes::Scenes),
-    Structures(structures::Structures),
-    Paper(paper::PaperVerb),
-    Trade(trade::Trade),
-    Completions(completions::Completions),
-}
-
-impl Command {
-    fn verb(&self) -> &dyn Verb {
-        match self {
-            Self::Compare(verb) => verb,
-            Self::Check(verb) => verb,
-            Self::Measure(verb) => verb,
-            Self::Report(verb) => verb,
-            Self::Cmp(verb) => verb,
-            Self::Rank(verb) => verb,
-            Self::Recommend(verb) => verb,
-            Self::Diff(verb) => verb,
-            Self::Render(verb) => verb,
-            Self::Trace(verb) => verb,
-            Self::Scenes(verb) => verb,
-            Self::Structures(verb) => verb,
-            Self::Trade(verb) => verb,
-            Self::Completions(verb) => verb,
-            Self::Paper(verb) => verb,
-        }
-    }
-}
-
 /// The whole program.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    let Global { scenes, meshes, .. } = cli.global.clone();
-    ::scenes::look_in(Folders { scenes, meshes });
+    let Global { scenes_folder, meshes_folder, .. } = cli.global.clone();
+    scenes::look_in(Folders { scenes: scenes_folder, meshes: meshes_folder });
     let console = Console::new(cli.global, grammar);
     let outcome = match &cli.command {
         Some(command) => command.verb().run(&console),
@@ -92,6 +51,16 @@ pub fn grammar() -> clap::Command {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn completions_know_the_names_there_are() {
+        let mut script = Vec::new();
+        clap_complete::generate(clap_complete::Shell::Bash, &mut grammar(), "rayscale", &mut script);
+        let script = String::from_utf8(script).unwrap();
+        for name in ["obvhs-cwbvh", "leak-edge", "baldwin-weber"] {
+            assert!(script.contains(name), "{name}");
+        }
+    }
 
     #[test]
     fn the_grammar_is_sound() {

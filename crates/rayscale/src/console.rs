@@ -25,12 +25,12 @@ pub struct Global {
     #[arg(long, global = true, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
     /// The folder of scene definitions that go before the program's own; $RAYSCALE_SCENES or ./scenes otherwise
-    #[arg(long, global = true, value_name = "DIR")]
-    pub scenes: Option<PathBuf>,
+    #[arg(long = "scenes", global = true, value_name = "DIR")]
+    pub scenes_folder: Option<PathBuf>,
     /// The folder of meshes; otherwise $RAYSCALE_MESHES, or .setup/meshes here or above, then rayscale/meshes in your
     /// data folder
-    #[arg(long, global = true, value_name = "DIR")]
-    pub meshes: Option<PathBuf>,
+    #[arg(long = "meshes", global = true, value_name = "DIR")]
+    pub meshes_folder: Option<PathBuf>,
 }
 
 /// The user's terminal, or the files that stand for it.

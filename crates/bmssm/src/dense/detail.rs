@@ -108,7 +108,7 @@ impl<B: Blocks> Detail for Words<B> {
 
     #[inline(always)]
     fn settle(&self, ray: &B::One, best: &mut Nearest) {
-        self.0.settle(ray, best);
+        self.0.resolve(ray, best);
     }
 
     #[inline(always)]

@@ -141,7 +141,7 @@ impl<O: PackedObjects> General<O> {
         }
         if !O::Blocks::takes_pairs::<S>() {
             for (one, best) in room.ones.iter().zip(&mut room.best) {
-                self.objects.settle(one, best);
+                self.objects.resolve(one, best);
             }
         }
     }

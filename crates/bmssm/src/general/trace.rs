@@ -150,7 +150,7 @@ impl<O: PackedObjects> General<O> {
             }
             next = stack.pop(limit);
         }
-        self.objects.settle(&prepared, &mut best);
+        self.objects.resolve(&prepared, &mut best);
         best
     }
 }

@@ -30,7 +30,7 @@ impl<O: PackedObjects> Task for Pixel<'_, O> {
                 seen &= seen - 1;
                 let block = &maps.blocks[at];
                 if block.depth[0] > best.t {
-                    maps.geometry.settle(&one, &mut best);
+                    maps.geometry.resolve(&one, &mut best);
                     return best;
                 }
                 // Wraps to a number beyond the block's slices where the pixel lies before them.
@@ -44,7 +44,7 @@ impl<O: PackedObjects> Task for Pixel<'_, O> {
                 }
             }
         }
-        maps.geometry.settle(&one, &mut best);
+        maps.geometry.resolve(&one, &mut best);
         best
     }
 }

@@ -272,7 +272,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
         for cell in 0..self.rows.len() * self.cols.len() {
             if self.open[cell] {
                 for packet in cell * Self::PACKETS..(cell + 1) * Self::PACKETS {
-                    maps.geometry.settle_packet(s, &self.rays[packet], &mut self.best[packet]);
+                    maps.geometry.resolve_packet(s, &self.rays[packet], &mut self.best[packet]);
                 }
             }
         }

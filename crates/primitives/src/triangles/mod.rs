@@ -6,6 +6,7 @@ mod lattice;
 mod pack;
 mod packets;
 mod pairs;
+mod pending;
 mod single;
 #[cfg(test)]
 mod tests;
@@ -145,10 +146,10 @@ fn next_lane(bits: &mut u32) -> Option<usize> {
 /// Rows that hold the corners of triangles.
 const CORNER_ROWS: usize = 9;
 
-/// Room for the rows of a group that have to be unpacked.
-struct Room([Row; CORNER_ROWS]);
+/// Scratch buffer for the rows of a group that have to be unpacked.
+struct Scratch([Row; CORNER_ROWS]);
 
-impl Room {
+impl Scratch {
     const EMPTY: Self = Self([Row([0.0; ROW]); CORNER_ROWS]);
 }
 
@@ -162,10 +163,10 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
 
     /// The rows of a slot's group, in which the lanes `LANES` by `LANES` with that of the slot are unpacked.
     #[inline(always)]
-    fn group<'a, S: Simd>(&'a self, s: S, slot: usize, room: &'a mut Room) -> &'a [Row] {
+    fn group<'a, S: Simd>(&'a self, s: S, slot: usize, scratch: &'a mut Scratch) -> &'a [Row] {
         if K::QUANTISED {
-            self.unpack(s, slot, slot % ROW / S::LANES * S::LANES, &mut room.0);
-            return &room.0;
+            self.unpack(s, slot, slot % ROW / S::LANES * S::LANES, &mut scratch.0);
+            return &scratch.0;
         }
         self.packed(slot)
     }
@@ -252,7 +253,7 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
             return self.one_in_place(s, block, mask, &ray.ray, false, best);
         }
         if K::Deferral::DEFERS {
-            return self.postpone_nearest(s, block, mask, ray, best);
+            return self.defer_nearest(s, block, mask, ray, best);
         }
         self.visit(s, block, mask, ray, best.t, |object, surface| {
             self.offer_one(ray, object, surface, best);
@@ -279,9 +280,9 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn settle(&self, ray: &Self::One, best: &mut Nearest) {
+    fn resolve(&self, ray: &Self::One, best: &mut Nearest) {
         if K::Deferral::DEFERS {
-            self.settle_one(ray, best);
+            self.resolve_one(ray, best);
         }
     }
 
@@ -314,12 +315,12 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         if self.in_place {
             return self.packet_in_place(s, slot, &rays.rays, best);
         }
-        let mut room = Room::EMPTY;
-        let group = self.group(s, slot, &mut room);
+        let mut scratch = Scratch::EMPTY;
+        let group = self.group(s, slot, &mut scratch);
         if K::Deferral::DEFERS {
             let bounds = K::Deferral::bounds(s, &rays.prepared, group, slot % ROW, best.t);
-            if s.bits(bounds.open) != 0 {
-                self.postpone(s, slot, rays, &bounds, best);
+            if s.bits(bounds.undecided) != 0 {
+                self.defer(s, slot, rays, &bounds, best);
             }
             return;
         }
@@ -371,8 +372,8 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         let common = &self.triangles.frame.common(common);
         if K::Deferral::DEFERS {
             let bounds = K::Deferral::bounds_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
-            if s.bits(bounds.open) != 0 {
-                self.postpone(s, slot, rays, &bounds, best);
+            if s.bits(bounds.undecided) != 0 {
+                self.defer(s, slot, rays, &bounds, best);
             }
             return;
         }
@@ -383,9 +384,9 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn settle_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+    fn resolve_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         if K::Deferral::DEFERS {
-            self.settle_lanes(s, rays, u32::MAX, best);
+            self.resolve_lanes(s, rays, u32::MAX, best);
         }
     }
 }

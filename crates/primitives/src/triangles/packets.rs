@@ -2,6 +2,7 @@
 
 #[cfg(doc)]
 use super::Frame;
+use super::pending::{defer, pending};
 use super::{Kernel, Limits, TriangleBlocks, TrianglePacket, next_lane};
 use crate::kernel::Deferral;
 use accel::Nearest;
@@ -26,12 +27,12 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     ) {
         let hits = s.bits(lanes.hit);
         let plain = s.bits(s.and(rays.near, limits.hold(s, &rays.rays, lanes.t)));
-        let mut open = hits & !plain;
-        if open != 0 {
+        let mut undecided = hits & !plain;
+        if undecided != 0 {
             let corners = self.corners_of(slot);
             let mut kept = hits & plain;
             let rows = lanes.rows(s);
-            while let Some(lane) = next_lane(&mut open) {
+            while let Some(lane) = next_lane(&mut undecided) {
                 if self.triangles.frame.holds(&corners, &rays.rays.ray(s, lane), false, rows.surface(lane).t)
                 {
                     kept |= 1 << lane;
@@ -60,7 +61,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         if ties == 0 {
             return;
         }
-        let settled = s.bits(lanes.hit) & !ties;
+        let decided = s.bits(lanes.hit) & !ties;
         let mut others = [Nearest::new(0.0); ROW];
         best.store(s, &mut others);
         let mut wins = 0;
@@ -69,13 +70,13 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             wins |= u32::from(wins_here) << lane;
         }
         best.take(s, s.mask(wins), object, lanes);
-        lanes.hit = s.mask(settled);
+        lanes.hit = s.mask(decided);
     }
 
-    /// Postpones the sure hits that certainly come before what is there, and decides those that may. Sure hits of near
+    /// Defers the certain hits that come before what is there for certain, and decides those that may. Certain hits of near
     /// rays satisfy the invariant, see [`Frame::is_near`].
     #[inline(always)]
-    pub(super) fn postpone<S: Simd>(
+    pub(super) fn defer<S: Simd>(
         &self,
         s: S,
         slot: usize,
@@ -83,10 +84,10 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         bounds: &Bounds<S>,
         best: &mut NearestPacket<S>,
     ) {
-        let postponed = best.postpone(s, slot as u32, s.and(bounds.sure, rays.near), bounds);
-        let open = s.bits(bounds.open) & !s.bits(postponed);
-        if open != 0 {
-            self.decide(s, slot, rays, open, best);
+        let deferred = defer(s, slot, s.and(bounds.certain, rays.near), bounds, best);
+        let undecided = s.bits(bounds.undecided) & !s.bits(deferred);
+        if undecided != 0 {
+            self.decide(s, slot, rays, undecided, best);
         }
     }
 
@@ -96,21 +97,21 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         s: S,
         slot: usize,
         rays: &TrianglePacket<S, K::Many<S>>,
-        open: u32,
+        undecided: u32,
         best: &mut NearestPacket<S>,
     ) {
-        let lanes = K::Deferral::decide(s, &rays.prepared, self.packed(slot), slot % ROW, open, best.t);
+        let lanes = K::Deferral::decide(s, &rays.prepared, self.packed(slot), slot % ROW, undecided, best.t);
         let hits = s.bits(lanes.hit);
         if hits != 0 {
-            self.settle_lanes(s, rays, hits, best);
+            self.resolve_lanes(s, rays, hits, best);
             let limits = Limits::of(&self.triangles.frame, &self.corners_of(slot));
             self.offer(s, slot, rays, &limits, lanes, best);
         }
     }
 
-    /// Decides those of the lanes `which` whose hits are postponed; `best` holds their slots.
+    /// Resolves the pending hits of the lanes `which`; `best` holds their slots.
     #[inline(always)]
-    pub(super) fn settle_lanes<S: Simd>(
+    pub(super) fn resolve_lanes<S: Simd>(
         &self,
         s: S,
         rays: &TrianglePacket<S, K::Many<S>>,
@@ -118,14 +119,14 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         best: &mut NearestPacket<S>,
     ) {
         const { assert!(K::ROWS <= MOST_ROWS) };
-        let open = s.bits(best.postponed(s)) & which;
-        if open == 0 {
+        let deferred = s.bits(pending(s, best)) & which;
+        if deferred == 0 {
             return;
         }
         let mut slots = [0; ROW];
         s.store_u(best.object, &mut slots);
         let mut group = [Row([0.0; ROW]); MOST_ROWS];
-        let mut left = open;
+        let mut left = deferred;
         while let Some(lane) = next_lane(&mut left) {
             let slot = slots[lane] as usize;
             for (to, from) in group.iter_mut().zip(self.packed(slot)) {
@@ -134,7 +135,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             slots[lane] = self.object(slot);
         }
         let rays = self.triangles.frame.packet(s, &rays.rays);
-        let found = K::Deferral::resolve(s, &rays, &group[..K::ROWS], open);
-        best.take_each(s, s.mask(open), &slots, &found);
+        let found = K::Deferral::resolve(s, &rays, &group[..K::ROWS], deferred);
+        best.take_each(s, s.mask(deferred), &slots, &found);
     }
 }

@@ -1,6 +1,7 @@
 //! One ray against triangles in lanes.
 
-use super::{Kernel, Room, TriangleBlocks, TriangleRay, next_lane};
+use super::pending::{PendingHit, lower_bound};
+use super::{Kernel, Scratch, TriangleBlocks, TriangleRay, next_lane};
 use crate::kernel::Deferral;
 use accel::{Nearest, Surface};
 use lanes::{BLOCK, Blocks, ROW, Row, Scalar, Simd};
@@ -38,9 +39,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         mut t_max: f32,
         mut found: impl FnMut(u32, Surface) -> Option<f32>,
     ) {
-        let mut room = Room::EMPTY;
+        let mut scratch = Scratch::EMPTY;
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
-            let group = self.group(s, first, &mut room);
+            let group = self.group(s, first, &mut scratch);
             let lanes = K::triangles(s, &ray.prepared, group, first % ROW, wanted, t_max);
             let mut hits = s.bits(lanes.hit) & wanted;
             if hits == 0 {
@@ -76,9 +77,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         best.offer_by(object, surface, |other| self.triangles.precedes(&ray.ray, object, other));
     }
 
-    /// Postpones the nearest of the sure hits, and decides what may come before it.
+    /// Lets the nearest of the certain hits wait, and decides what may come before it.
     #[inline(always)]
-    pub(super) fn postpone_nearest<S: Simd>(
+    pub(super) fn defer_nearest<S: Simd>(
         &self,
         s: S,
         block: usize,
@@ -89,22 +90,22 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         while let Some(Next { slot: first, wanted }) = next::<S>(block, &mut mask) {
             let group = self.packed(first);
             let bounds = K::Deferral::triangles_bounds(s, &ray.prepared, group, first % ROW, wanted, best.t);
-            let mut open = s.bits(bounds.open) & wanted;
-            if open == 0 {
+            let mut undecided = s.bits(bounds.undecided) & wanted;
+            if undecided == 0 {
                 continue;
             }
             let (mut low, mut high) = ([0.0; ROW], [0.0; ROW]);
             s.store(bounds.low, &mut low);
             s.store(bounds.high, &mut high);
-            let mut sure = if ray.near { open & s.bits(bounds.sure) } else { 0 };
-            while let Some(lane) = next_lane(&mut sure) {
-                if high[lane] < best.low() {
-                    *best = Nearest::postponed(first + lane, low[lane], high[lane]);
-                    open &= !(1 << lane);
+            let mut certain = if ray.near { undecided & s.bits(bounds.certain) } else { 0 };
+            while let Some(lane) = next_lane(&mut certain) {
+                if high[lane] < lower_bound(best) {
+                    PendingHit { slot: first + lane, low: low[lane], high: high[lane] }.wait(best);
+                    undecided &= !(1 << lane);
                 }
             }
-            while let Some(lane) = next_lane(&mut open) {
-                let known = best.is_postponed() && best.object as usize == first + lane;
+            while let Some(lane) = next_lane(&mut undecided) {
+                let known = PendingHit::in_place_of(best).is_some_and(|pending| pending.slot == first + lane);
                 let behind = low[lane] > best.t;
                 if !known && !behind {
                     self.decide_one(ray, first + lane, high[lane], best);
@@ -113,13 +114,13 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         }
     }
 
-    /// Decides one test, and where it hits the hit postponed too, unless that comes after it for certain.
+    /// Decides one test, and where it hits the hit that waits too, unless that comes after it for certain.
     #[inline(always)]
     fn decide_one(&self, ray: &TriangleRay<K::One>, slot: usize, high: f32, best: &mut Nearest) {
         if let Some(surface) = self.decided(ray, slot, best.t) {
-            let before = high < best.low();
+            let before = high < lower_bound(best);
             if !before {
-                self.settle_one(ray, best);
+                self.resolve_one(ray, best);
             }
             self.offer_one(ray, self.ids.get(slot), surface, best);
         }
@@ -134,20 +135,19 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         (lanes.hit && self.holds(group, slot, ray, surface)).then_some(surface)
     }
 
-    /// Decides the hit that is postponed, if it is.
+    /// Resolves the hit that waits, if one does.
     #[inline(always)]
-    pub(super) fn settle_one(&self, ray: &TriangleRay<K::One>, best: &mut Nearest) {
-        if best.is_postponed() {
-            let slot = best.object as usize;
+    pub(super) fn resolve_one(&self, ray: &TriangleRay<K::One>, best: &mut Nearest) {
+        if let Some(PendingHit { slot, .. }) = PendingHit::in_place_of(best) {
             let group = self.packed(slot);
             let lanes =
                 K::Deferral::triangles_decided(Scalar, &ray.prepared, group, slot % ROW, 1, ray.ray.t_max);
-            debug_assert!(lanes.hit, "a sure hit");
+            debug_assert!(lanes.hit, "a certain hit");
             *best = Nearest { t: lanes.t, object: self.object(slot), u: lanes.u, v: lanes.v };
         }
     }
 
-    /// Whether there is a hit; a sure one needs no decision.
+    /// Whether there is a hit; a certain one needs no decision.
     #[inline(always)]
     pub(super) fn any_certain<S: Simd>(
         &self,
@@ -166,15 +166,15 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
                 wanted,
                 t_max,
             );
-            let mut open = s.bits(bounds.open) & wanted;
-            if open == 0 {
+            let mut undecided = s.bits(bounds.undecided) & wanted;
+            if undecided == 0 {
                 continue;
             }
-            let sure = s.and(bounds.sure, s.lt(bounds.high, s.splat(t_max)));
-            if ray.near && s.bits(sure) & wanted != 0 {
+            let certain = s.and(bounds.certain, s.lt(bounds.high, s.splat(t_max)));
+            if ray.near && s.bits(certain) & wanted != 0 {
                 return true;
             }
-            while let Some(lane) = next_lane(&mut open) {
+            while let Some(lane) = next_lane(&mut undecided) {
                 if self.decided(ray, first + lane, t_max).is_some() {
                     return true;
                 }

@@ -27,7 +27,7 @@ impl<B: Blocks> Task for ByMask<'_, B> {
         let mut out = vec![[Nearest::new(f32::INFINITY); 3]; rays.len()];
         for (ray, [one, ..]) in rays.iter().zip(&mut out) {
             blocks.closest(s, 0, mask, &blocks.one(ray), one);
-            blocks.settle(&blocks.one(ray), one);
+            blocks.resolve(&blocks.one(ray), one);
         }
         for first in (0..rays.len()).step_by(S::LANES) {
             let many = blocks.many(s, &Packet::load(s, &rays[first..]));
@@ -35,7 +35,7 @@ impl<B: Blocks> Task for ByMask<'_, B> {
             for slot in (0..BLOCK).filter(|slot| mask >> slot & 1 != 0) {
                 blocks.packet(s, slot, &many, &mut best);
             }
-            blocks.settle_packet(s, &many, &mut best);
+            blocks.resolve_packet(s, &many, &mut best);
             let mut stored = [Nearest::new(0.0); ROW];
             best.store(s, &mut stored);
             let mut paired = [Nearest::new(f32::INFINITY); ROW];

@@ -1,5 +1,6 @@
 //! The options that choose a ray-triangle test.
 
+use super::names::kernels;
 use crate::error::Error;
 use clap::Args;
 use harness::registry::{self, AUTO, Choice, ChosenKernel, DEFAULT_MAX_ERROR, StructureSpec};
@@ -8,9 +9,8 @@ use primitives::KernelId;
 /// Which ray-triangle test, and how wrong it may be.
 #[derive(Clone, Debug, Default, Args)]
 pub struct KernelOptions {
-    /// The ray-triangle test of the suite's own structures: moller-trumbore, baldwin-weber, watertight, double or
-    /// exact; quantised or box, which are lossy; or auto: for each scene the cheapest of the others that keeps --max-error on its rays
-    #[arg(long, value_name = "ID")]
+    /// The ray-triangle intersector of the suite's own structures
+    #[arg(long, value_name = "ID", value_parser = kernels())]
     pub kernel: Option<String>,
     /// With the kernel auto: wrong answers that may be given in a million rays, missed, invented or of another object; 1
     /// otherwise

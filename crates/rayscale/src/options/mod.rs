@@ -2,10 +2,12 @@
 
 mod filter;
 mod kernel;
+mod names;
 mod selection;
 mod values;
 
 pub use filter::Filter;
 pub use kernel::{KernelOptions, per_million};
+pub use names::structures;
 pub use selection::Selection;
 pub use values::{measures, shadings};

@@ -1,6 +1,7 @@
 //! What verbs that run structures choose from: scenes, ray sets, structures, kernel.
 
 use super::kernel::KernelOptions;
+use super::names::{ray_sets, structures};
 use crate::error::Error;
 use clap::Args;
 use harness::registry::{Choice, RegistryError, StructureSpec};
@@ -14,10 +15,10 @@ pub struct Selection {
     #[arg(long = "scene", value_name = "SCENE", value_delimiter = ';')]
     pub scenes: Vec<String>,
     /// A ray set; may be repeated. All that are for measuring otherwise
-    #[arg(long = "rays", value_name = "RAYS", value_delimiter = ',')]
+    #[arg(long = "rays", value_name = "RAYS", value_delimiter = ',', value_parser = ray_sets(), hide_possible_values = true)]
     pub rays: Vec<String>,
     /// A structure, with settings as `id:name=value,name=value`; may be repeated. All otherwise
-    #[arg(long = "structure", value_name = "ID")]
+    #[arg(long = "structure", value_name = "ID", value_parser = structures(), hide_possible_values = true)]
     pub structures: Vec<String>,
     #[command(flatten)]
     pub kernel: KernelOptions,

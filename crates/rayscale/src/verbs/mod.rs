@@ -1,4 +1,4 @@
-//! The verbs, one file each.
+//! The verbs, one file each. A verb is a `clap::Args` struct that is a [`Verb`], and a line of `verbs!` below.
 
 pub mod check;
 pub mod cmp;
@@ -18,3 +18,44 @@ pub mod structures;
 pub mod trace;
 pub mod trade;
 pub mod welcome;
+
+use crate::verb::Verb;
+use clap::Subcommand;
+
+macro_rules! verbs {
+    ($($name:ident: $verb:ty,)*) => {
+        /// What is to be done.
+        #[derive(Debug, Subcommand)]
+        pub enum Command {
+            $($name($verb),)*
+        }
+
+        impl Command {
+            /// The verb with its options.
+            pub fn verb(&self) -> &dyn Verb {
+                match self {
+                    $(Self::$name(verb) => verb,)*
+                }
+            }
+        }
+    };
+}
+
+// In the order of help texts.
+verbs! {
+    Compare: compare::Compare,
+    Check: check::Check,
+    Measure: measure::Measure,
+    Report: report::Report,
+    Cmp: cmp::Cmp,
+    Rank: rank::Rank,
+    Recommend: recommend::Recommend,
+    Diff: diff::Diff,
+    Render: render::Render,
+    Trace: trace::Trace,
+    Scenes: scenes::Scenes,
+    Structures: structures::Structures,
+    Paper: paper::PaperVerb,
+    Trade: trade::Trade,
+    Completions: completions::Completions,
+}

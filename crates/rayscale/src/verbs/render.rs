@@ -3,7 +3,7 @@
 use super::hits::trace;
 use crate::console::Console;
 use crate::error::Error;
-use crate::options::{KernelOptions, shadings};
+use crate::options::{KernelOptions, shadings, structures};
 use crate::verb::{Outcome, Verb};
 use accel::{Raster, RaySet, Scene};
 use clap::{Args, ValueEnum};
@@ -41,12 +41,12 @@ pub struct Render {
     #[arg(long, value_name = "FILE.png")]
     out: PathBuf,
     /// Structure that finds the hits, with settings
-    #[arg(long, value_name = "ID[:NAME=VALUE,…]", default_value = "ssm")]
+    #[arg(long, value_name = "ID[:NAME=VALUE,…]", default_value = "ssm", value_parser = structures(), hide_possible_values = true)]
     structure: String,
     #[command(flatten)]
     kernel: KernelOptions,
     /// Another structure: show where its hits differ
-    #[arg(long, value_name = "ID[:NAME=VALUE,…]")]
+    #[arg(long, value_name = "ID[:NAME=VALUE,…]", value_parser = structures(), hide_possible_values = true)]
     against: Option<String>,
     /// Pixels: columns x rows, or one number for both
     #[arg(long, value_name = "COLS[xROWS]", default_value = "512")]

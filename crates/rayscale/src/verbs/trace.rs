@@ -3,7 +3,7 @@
 use super::hits::trace;
 use crate::console::Console;
 use crate::error::Error;
-use crate::options::KernelOptions;
+use crate::options::{KernelOptions, structures};
 use crate::verb::{Outcome, Verb};
 use accel::{Ray, RaySet};
 use clap::Args;
@@ -45,7 +45,7 @@ pub struct Trace {
     #[arg(long, value_name = "RAYS.csv")]
     rays: PathBuf,
     /// Structure that finds the hits, with settings
-    #[arg(long, value_name = "ID[:NAME=VALUE,…]")]
+    #[arg(long, value_name = "ID[:NAME=VALUE,…]", value_parser = structures(), hide_possible_values = true)]
     structure: String,
     /// The file to write
     #[arg(long, value_name = "HITS.csv")]

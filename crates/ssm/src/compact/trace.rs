@@ -118,7 +118,7 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
                 let limit = way.limit(traveller.best.t).min(1.0);
                 field.walk(&way, limit, &mut traveller);
             }
-            blocks.settle(&traveller.ray, &mut traveller.best);
+            blocks.resolve(&traveller.ray, &mut traveller.best);
             *found = traveller.best;
         }
     }

@@ -23,12 +23,12 @@ struct Decisions {
     v: [f32; ROW],
 }
 
-/// Decides the lanes `open`; the others hold no hit.
+/// Decides the lanes `undecided`; the others hold no hit.
 #[inline(always)]
-pub(super) fn decide<S: Simd>(s: S, pairs: &impl Pairs, open: u32) -> Lanes<S> {
+pub(super) fn decide<S: Simd>(s: S, pairs: &impl Pairs, undecided: u32) -> Lanes<S> {
     let mut rows = Decisions { state: [0.0; ROW], t: [0.0; ROW], u: [0.0; ROW], v: [0.0; ROW] };
-    if open.count_ones() <= FEW {
-        let mut left = open;
+    if undecided.count_ones() <= FEW {
+        let mut left = undecided;
         while left != 0 {
             let lane = left.trailing_zeros() as usize % ROW;
             left &= left - 1;
@@ -40,10 +40,10 @@ pub(super) fn decide<S: Simd>(s: S, pairs: &impl Pairs, open: u32) -> Lanes<S> {
         }
     }
     let known = s.load(&rows.state);
-    let unsure = s.bits(s.lt(s.splat(1.5), known)) & open;
-    let mut hits = s.bits(s.eq(known, s.splat(1.0))) & open;
-    if unsure != 0 {
-        hits |= rows.settle(pairs, unsure);
+    let uncertain = s.bits(s.lt(s.splat(1.5), known)) & undecided;
+    let mut hits = s.bits(s.eq(known, s.splat(1.0))) & undecided;
+    if uncertain != 0 {
+        hits |= rows.resolve(pairs, uncertain);
     }
     Lanes { hit: s.mask(hits), t: s.load(&rows.t), u: s.load(&rows.u), v: s.load(&rows.v) }
 }
@@ -78,22 +78,22 @@ impl Decisions {
         let clear = (low == high) & (low != ray.t_min) & (low != ray.t_max);
         // Rounding keeps order: t is out of the range if what it is rounded to at least or at most is.
         let missed = missed | (firm & ((high < ray.t_min) | (ray.t_max < low)));
-        let unsure = if firm & clear { 3.0 } else { 2.0 };
-        self.state[lane] = if inside & firm & clear { 1.0 } else { unsure };
+        let uncertain = if firm & clear { 3.0 } else { 2.0 };
+        self.state[lane] = if inside & firm & clear { 1.0 } else { uncertain };
         self.state[lane] = if missed { 0.0 } else { self.state[lane] };
         self.t[lane] = low;
         self.u[lane] = (u * reciprocal) as f32;
         self.v[lane] = (v * reciprocal) as f32;
     }
 
-    /// Decides the lanes `unsure` by exact signs and, where t is not known, by its exact quotient, and tells which
+    /// Decides the lanes `uncertain` by exact signs and, where t is not known, by its exact quotient, and tells which
     /// are hit.
     #[cold]
-    fn settle(&mut self, pairs: &impl Pairs, mut unsure: u32) -> u32 {
+    fn resolve(&mut self, pairs: &impl Pairs, mut uncertain: u32) -> u32 {
         let mut hits = 0;
-        while unsure != 0 {
-            let lane = unsure.trailing_zeros() as usize;
-            unsure &= unsure - 1;
+        while uncertain != 0 {
+            let lane = uncertain.trailing_zeros() as usize;
+            uncertain &= uncertain - 1;
             let (ray, corners) = (pairs.ray(lane), pairs.corners(lane));
             if !usable(&ray, &corners) {
                 continue;

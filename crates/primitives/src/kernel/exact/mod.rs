@@ -99,13 +99,13 @@ impl Kernel for Exact {
         t_max: f32,
     ) -> Lanes<S> {
         let bounds = Self::triangles_bounds(s, ray, group, at, wanted, t_max);
-        Self::triangles_decided(s, ray, group, at, wanted & s.bits(bounds.open), t_max)
+        Self::triangles_decided(s, ray, group, at, wanted & s.bits(bounds.undecided), t_max)
     }
 
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        let open = s.bits(Self::bounds(s, rays, group, lane, t_max).open);
-        Self::decide(s, rays, group, lane, open, t_max)
+        let undecided = s.bits(Self::bounds(s, rays, group, lane, t_max).undecided);
+        Self::decide(s, rays, group, lane, undecided, t_max)
     }
 }
 
@@ -128,7 +128,7 @@ impl Preparation<Self> for Exact {
         t_max: S::F,
     ) -> Lanes<S> {
         let bounds = Self::bounds_prepared(s, rays, common, group, rows, lane, t_max);
-        Self::decide(s, rays, group, lane, s.bits(bounds.open), t_max)
+        Self::decide(s, rays, group, lane, s.bits(bounds.undecided), t_max)
     }
 }
 
@@ -154,14 +154,14 @@ impl Deferral<Self> for Exact {
         ray: &Spanned,
         group: &[Row],
         at: usize,
-        open: u32,
+        undecided: u32,
         t_max: f32,
     ) -> Lanes<S> {
-        if open == 0 {
+        if undecided == 0 {
             return nothing(s);
         }
         let pairs = OneRay::new(&ray.ray, group, at, S::LANES);
-        in_range(s, decide::decide(s, &pairs, open), &Packet::splat(s, &ray.ray), s.splat(t_max))
+        in_range(s, decide::decide(s, &pairs, undecided), &Packet::splat(s, &ray.ray), s.splat(t_max))
     }
 
     #[inline(always)]
@@ -177,23 +177,23 @@ impl Deferral<Self> for Exact {
         rays: &SpannedLanes<S>,
         group: &[Row],
         lane: usize,
-        open: u32,
+        undecided: u32,
         t_max: S::F,
     ) -> Lanes<S> {
-        if open == 0 {
+        if undecided == 0 {
             return nothing(s);
         }
         // Else the compiler loads the corners once for here and for the rejection, and by a gather.
         let group = std::hint::black_box(group);
         let rows = RayRows::of(s, &rays.rays);
         let pairs = OneTriangle::new(&rows, group, lane);
-        in_range(s, decide::decide(s, &pairs, open), &rays.rays, t_max)
+        in_range(s, decide::decide(s, &pairs, undecided), &rays.rays, t_max)
     }
 
     #[inline(always)]
-    fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], open: u32) -> Lanes<S> {
+    fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], undecided: u32) -> Lanes<S> {
         let rows = RayRows::of(s, rays);
-        in_range(s, decide::decide(s, &OneEach::new(&rows, group), open), rays, rays.t_max)
+        in_range(s, decide::decide(s, &OneEach::new(&rows, group), undecided), rays, rays.t_max)
     }
 
     #[inline(always)]

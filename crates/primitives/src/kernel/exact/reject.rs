@@ -243,11 +243,11 @@ fn known<S: Simd>(
     let w = s.mul(w, s.splat(1.0 / OF_DET));
     let least = s.min(s.min(u, v), w);
     let greatest = s.max(s.max(u, v), w);
-    // Certainly of different signs. What is beyond the bound is infinite or NaN and stays open.
+    // Certainly of different signs. What is beyond the bound is infinite or NaN and stays undecided.
     let missed = s.and(s.lt(least, minus_error), s.lt(error, greatest));
-    let open = s.mask(wanted & !s.bits(missed));
-    if s.bits(open) == 0 {
-        return Bounds { open, sure: open, low: zero, high: zero };
+    let undecided = s.mask(wanted & !s.bits(missed));
+    if s.bits(undecided) == 0 {
+        return Bounds { undecided, certain: undecided, low: zero, high: zero };
     }
 
     let infinity = s.splat(f32::INFINITY);
@@ -263,8 +263,8 @@ fn known<S: Simd>(
     let low = s.select(firm, s.sub(t, off), s.sub(zero, infinity));
     let high = s.select(firm, s.add(t, off), infinity);
     let gone = s.or(s.lt(t_max, low), s.lt(high, ray.t_min));
-    let open = s.mask(s.bits(open) & !s.bits(gone));
-    let sure = s.or(s.lt(error, least), s.lt(greatest, minus_error));
-    let sure = s.and(s.and(sure, open), s.lt(s.max(ray.t_min, s.splat(f32::MIN_POSITIVE)), low));
-    Bounds { open, sure, low, high }
+    let undecided = s.mask(s.bits(undecided) & !s.bits(gone));
+    let certain = s.or(s.lt(error, least), s.lt(greatest, minus_error));
+    let certain = s.and(s.and(certain, undecided), s.lt(s.max(ray.t_min, s.splat(f32::MIN_POSITIVE)), low));
+    Bounds { undecided, certain, low, high }
 }

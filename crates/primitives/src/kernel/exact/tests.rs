@@ -45,12 +45,12 @@ fn check(ray: &Ray, triangle: &Corners) -> Result<(), TestCaseError> {
     let mut group = [Row([0.0; ROW]); <Exact as Kernel>::ROWS];
     Exact::pack(triangle, &mut group, 0);
     let bounds = Exact::triangles_bounds(Scalar, &Exact::one(ray), &group, 0, 1, ray.t_max);
-    prop_assert!(bounds.open || exact.is_none(), "{:?} {:?}", ray, triangle);
+    prop_assert!(bounds.undecided || exact.is_none(), "{:?} {:?}", ray, triangle);
     let beyond = intersect(&Ray { t_max: f32::INFINITY, ..*ray }, triangle);
     let t = beyond.as_ref().map_or(f64::NAN, |hit| hit.t.to_f64());
     let within = f64::from(bounds.low) <= t && t <= f64::from(bounds.high);
     let text = format!("{ray:?} {triangle:?}: {} to {}", bounds.low, bounds.high);
-    prop_assert!(within || !bounds.sure && beyond.is_none(), "{}", text);
+    prop_assert!(within || !bounds.certain && beyond.is_none(), "{}", text);
     prop_assert_eq!(found.map(|s| s.t), exact.as_ref().map(|hit| hit.t.to_f32()), "{:?} {:?}", ray, triangle);
     if let (Some(found), Some(exact)) = (found, exact) {
         let near = |a: f32, b: f32| (a - b).abs() <= f32::EPSILON;
