@@ -163,10 +163,10 @@ impl Grid {
         }
         for axis in 0..3 {
             let (min, inverse) = (f64::from(self.bounds.min[axis]), self.inverse[axis]);
-            for i in 0..N {
+            for (i, t_end) in t_ends.iter().enumerate() {
                 let (o, d) = (f64::from(rays.origin[axis][i]), f64::from(rays.direction[axis][i]));
                 let from = within_unit((o + rows.t_start[i] * d - min) * inverse);
-                let to = within_unit((o + t_ends[i] * d - min) * inverse);
+                let to = within_unit((o + t_end * d - min) * inverse);
                 rows.start[axis][i] = from as f32;
                 rows.delta[axis][i] = (to - from) as f32;
             }
