@@ -195,7 +195,7 @@ impl<'m> EmbreeScene<'m> {
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         let mut rayhit = RTCRayHit { ray: single(ray), hit: RTCHit::default() };
         self.intersect1(&mut rayhit);
-        hit(&rayhit)
+        (rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID).then_some(found(&rayhit))
     }
 
     /// `rtcIntersect1` as it is, for those who keep rays in Embree's layout.
@@ -317,16 +317,10 @@ pub(crate) fn single(ray: &Ray) -> RTCRay {
     }
 }
 
-/// What was found, if anything.
+/// The hit of a ray that hit something.
 #[inline]
-pub(crate) fn hit(rayhit: &RTCRayHit) -> Option<Hit> {
-    let hit = &rayhit.hit;
-    (hit.geomID != RTC_INVALID_GEOMETRY_ID).then_some(Hit {
-        t: rayhit.ray.tfar,
-        object: hit.primID,
-        u: hit.u,
-        v: hit.v,
-    })
+pub(crate) fn found(rayhit: &RTCRayHit) -> Hit {
+    Hit { t: rayhit.ray.tfar, object: rayhit.hit.primID, u: rayhit.hit.u, v: rayhit.hit.v }
 }
 
 #[cfg(test)]

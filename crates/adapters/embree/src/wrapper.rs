@@ -10,7 +10,7 @@ use embree4_rs::geometry::TriangleMeshGeometry;
 use embree4_rs::{CommittedScene, SceneOptions};
 
 use crate::device::Device;
-use crate::scene::{EmbreeScene, SceneSettings, check_indices, hit, single};
+use crate::scene::{EmbreeScene, SceneSettings, check_indices, found, single};
 
 const ID: &str = "embree-rs";
 
@@ -80,8 +80,11 @@ impl Built<'_> {
 impl Accel for Built<'_> {
     #[inline]
     fn closest(&self, ray: &Ray) -> Option<Hit> {
-        // An error says that the scene isn't committed, which its type rules out.
-        self.scene.intersect_1(single(ray), None).ok().flatten().and_then(|rayhit| hit(&rayhit))
+        match self.scene.intersect_1(single(ray), None) {
+            Ok(Some(rayhit)) => Some(found(&rayhit)),
+            // An error would say that the scene isn't committed, which its type rules out.
+            Ok(None) | Err(_) => None,
+        }
     }
 
     #[inline]

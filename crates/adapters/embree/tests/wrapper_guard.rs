@@ -76,7 +76,9 @@ fn embree4_rs_gives_embree_the_room_that_it_writes_to() {
     let scene = scene.commit().unwrap();
     let ray = |x| RTCRay { org_x: x, org_y: 0.25, org_z: 3.0, dir_z: -2.0, ..RTCRay::default() };
     let hit = scene.intersect_1(ray(0.25), None).unwrap().unwrap();
-    assert_eq!((hit.hit.geomID, hit.hit.primID, hit.ray.tfar), (0, 0, 1.5));
+    assert_eq!((hit.hit.geomID, hit.hit.primID), (0, 0));
+    // How Embree divides depends on the instruction set it chooses.
+    assert!((hit.ray.tfar - 1.5).abs() < 1e-6);
     assert_eq!(scene.intersect_1(ray(2.0), None).unwrap(), None);
 
     let seen = SEEN.lock().unwrap();
