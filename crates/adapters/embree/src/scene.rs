@@ -65,7 +65,8 @@ pub struct SceneSettings {
 pub enum Coherence {
     /// Nothing: `RTC_RAY_QUERY_FLAG_INCOHERENT`.
     Incoherent,
-    /// They go the same way: `RTC_RAY_QUERY_FLAG_COHERENT`. No answer depends on it.
+    /// They go the same way: `RTC_RAY_QUERY_FLAG_COHERENT`. It decides no more than the time, and which of hits at
+    /// the same distance is found.
     Coherent,
 }
 

@@ -73,6 +73,9 @@ impl Preset {
     }
 }
 
+/// More than a half area is multiplied with in obvhs' costs, apart from the number of objects.
+const COST: f32 = 16.0;
+
 /// Builds obvhs' trees, on one thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ObvhsBuilder {
@@ -105,15 +108,16 @@ impl Builder for ObvhsBuilder {
         if scene.geometry.is_empty() {
             return Ok(Box::new(Nothing));
         }
+        self.within_reach(&scene.geometry)?;
         let parameters = self.preset.parameters();
-        // obvhs asserts where geometry is out of its reach; one failed cell must not end a run.
+        // obvhs asserts what geometry must be like; one failed cell must not end a run.
         let built = catch_unwind(AssertUnwindSafe(|| match self.variant {
             Variant::Bvh2 => self.built::<Bvh2>(&scene.geometry, parameters),
             Variant::CwBvh => self.built::<CwBvh>(&scene.geometry, parameters),
         }));
         built.map_err(|panic| BuildError::Library {
             structure: self.variant.id().to_owned(),
-            message: words_of(panic.as_ref()),
+            message: format!("obvhs 0.4's builder panicked: {}", words_of(panic.as_ref())),
         })
     }
 }
@@ -125,6 +129,22 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
 }
 
 impl ObvhsBuilder {
+    /// Refuses what obvhs can't order: it adds up surface areas by single precision, and with infinite ones the builder
+    /// of its BVH2 may never end, and that of its CWBVH read past its nodes or fill the stack, which nothing catches.
+    fn within_reach(&self, geometry: &Geometry) -> Result<(), BuildError> {
+        let bounds = geometry.bounds();
+        let size = bounds.max - bounds.min;
+        let half_area = size.x * size.y + size.y * size.z + size.z * size.x;
+        if (half_area * COST * geometry.len() as f32).is_finite() {
+            return Ok(());
+        }
+        let message = format!(
+            "extents of {size} are out of obvhs' reach: its builders compare sums of surface areas, which are infinite \
+             in single precision here, and then panic, exhaust the stack or never end"
+        );
+        Err(BuildError::Library { structure: self.variant.id().to_owned(), message })
+    }
+
     fn built<'s, T: Tree + 's>(
         &self,
         geometry: &'s Geometry,

@@ -117,6 +117,23 @@ fn scenes_of_none_one_and_equal_triangles_are_built() {
     }
 }
 
+/// Where sums of surface areas overflow, upstream would panic, abort or never end.
+#[test]
+fn extents_whose_areas_overflow_are_refused_before_obvhs_sees_them() {
+    for exponent in [0, 40, 70, 100, 120] {
+        let mut scene = triangles(600, 1.0);
+        let Geometry::Triangles(mesh) = &mut scene.geometry else { unreachable!("triangles") };
+        mesh.positions.iter_mut().for_each(|position| *position *= 2_f32.powi(exponent));
+        for builder in all_builders() {
+            let built = builder.build(&scene, &Need::GENERAL);
+            assert_eq!(built.is_ok(), exponent <= 40, "{builder:?} 2^{exponent}");
+            if let Err(error) = built {
+                assert!(error.to_string().contains("out of obvhs' reach"), "{error}");
+            }
+        }
+    }
+}
+
 #[test]
 fn footprints_hold_nodes_indices_and_triangles() {
     let scene = triangles(1000, 0.05);
