@@ -73,9 +73,6 @@ impl Preset {
     }
 }
 
-/// More than a half area is multiplied with in obvhs' costs, apart from the number of objects.
-const COST: f32 = 16.0;
-
 /// Builds obvhs' trees, on one thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ObvhsBuilder {
@@ -129,18 +126,18 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
 }
 
 impl ObvhsBuilder {
-    /// Refuses what obvhs can't order: it adds up surface areas by single precision, and with infinite ones the builder
-    /// of its BVH2 may never end, and that of its CWBVH read past its nodes or fill the stack, which nothing catches.
+    /// Refuses what obvhs can't order: it compares surface areas in single precision, and where they are infinite the
+    /// builder of its BVH2 may never end, and that of its CWBVH read past its nodes or fill the stack, which nothing
+    /// catches.
     fn within_reach(&self, geometry: &Geometry) -> Result<(), BuildError> {
         let bounds = geometry.bounds();
         let size = bounds.max - bounds.min;
-        let half_area = size.x * size.y + size.y * size.z + size.z * size.x;
-        if (half_area * COST * geometry.len() as f32).is_finite() {
+        if (size.x * size.y + size.y * size.z + size.z * size.x).is_finite() {
             return Ok(());
         }
         let message = format!(
-            "extents of {size} are out of obvhs' reach: its builders compare sums of surface areas, which are infinite \
-             in single precision here, and then panic, exhaust the stack or never end"
+            "extents of {size} are out of obvhs' reach: its builders compare surface areas, which are infinite in \
+             single precision here, and then panic, exhaust the stack or never end"
         );
         Err(BuildError::Library { structure: self.variant.id().to_owned(), message })
     }

@@ -117,7 +117,7 @@ fn scenes_of_none_one_and_equal_triangles_are_built() {
     }
 }
 
-/// Where sums of surface areas overflow, upstream would panic, abort or never end.
+/// Where surface areas overflow, upstream would panic, abort or never end.
 #[test]
 fn extents_whose_areas_overflow_are_refused_before_obvhs_sees_them() {
     for exponent in [0, 40, 70, 100, 120] {
