@@ -86,7 +86,9 @@ impl Iterator for Walk {
         // Rounding may put a boundary a little before the point reached already.
         let exit = self.next[axis].max(self.enter);
         let cell = Cell { slice: self.cell, enter: self.enter, exit };
-        if exit > 1.0 {
+        // NaN, which an unusable ray gives, ends the walk too.
+        let goes_on = exit <= 1.0;
+        if !goes_on {
             self.done = true;
         } else {
             self.enter = exit;

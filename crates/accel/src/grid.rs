@@ -104,7 +104,8 @@ impl Grid {
         let t_end = far.min(f64::from(ray.t_max));
         // A hit may lie a little outside of its box's range of t.
         let slack = T_SLACK * t_start.abs().max(t_end.abs());
-        if t_start > t_end + slack {
+        // Without end or beginning is only the range of a ray without direction.
+        if t_start > t_end + slack || !(t_start + t_end).is_finite() {
             return None;
         }
         let t_end = t_end.max(t_start);
@@ -156,7 +157,7 @@ impl Grid {
             let t_end = if far[i] < t_max { far[i] } else { t_max };
             let (a, b) = (t_start.abs(), t_end.abs());
             let slack = T_SLACK * if a > b { a } else { b };
-            rows.met[i] = (near[i] <= far[i]) & (t_start <= t_end + slack);
+            rows.met[i] = (near[i] <= far[i]) & (t_start <= t_end + slack) & (t_start + t_end).is_finite();
             rows.t_start[i] = t_start;
             t_ends[i] = if t_end > t_start { t_end } else { t_start };
             rows.t_span[i] = t_ends[i] - t_start;

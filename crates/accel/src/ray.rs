@@ -11,7 +11,7 @@ pub struct Ray {
     pub origin: Vec3,
     /// Finite and not zero.
     pub direction: Vec3,
-    /// Least t of a hit.
+    /// Least t of a hit, finite.
     pub t_min: f32,
     /// Greatest t of a hit, which may be infinite.
     pub t_max: f32,
@@ -43,7 +43,7 @@ impl Ray {
         if self.direction == Vec3::ZERO {
             return Err(RayError::ZeroDirection);
         }
-        if self.t_min.is_nan() || self.t_max.is_nan() || self.t_min == f32::INFINITY {
+        if !self.t_min.is_finite() || self.t_max.is_nan() {
             return Err(RayError::Range(self.t_min, self.t_max));
         }
         Ok(())
@@ -62,8 +62,8 @@ pub enum RayError {
     /// No direction at all.
     #[error("the ray's direction is zero")]
     ZeroDirection,
-    /// NaN in the range, or a range that begins at infinity.
-    #[error("the ray's range [{0}, {1}] is not a range of t")]
+    /// NaN in the range, or a range that begins at infinity or minus infinity: t there names no point.
+    #[error("the ray's range [{0}, {1}] does not begin at a finite t, or has no end")]
     Range(f32, f32),
 }
 
@@ -177,6 +177,10 @@ mod tests {
         let zero = Ray::new(Vec3::ZERO, Vec3::new(0.0, -0.0, 0.0));
         assert_eq!(zero.validate(), Err(RayError::ZeroDirection));
         assert!(Ray::new(Vec3::NAN, Vec3::X).validate().is_err());
+        for t_min in [f32::NEG_INFINITY, f32::INFINITY, f32::NAN] {
+            let ray = Ray { t_min, ..Ray::new(Vec3::ZERO, Vec3::X) };
+            assert!(matches!(ray.validate(), Err(RayError::Range(..))), "{t_min}");
+        }
         assert!(Ray::new(Vec3::ZERO, Vec3::X).validate().is_ok());
     }
 }

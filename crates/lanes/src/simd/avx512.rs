@@ -9,6 +9,16 @@ use std::arch::x86_64::*;
 #[derive(Clone, Copy, Debug)]
 pub struct Avx512(());
 
+/// Whether this machine has all that [`run`] enables.
+pub(super) fn present() -> bool {
+    super::avx2::present()
+        && is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512bw")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl")
+        && is_x86_feature_detected!("avx512vbmi2")
+}
+
 /// Runs `task` with AVX-512.
 ///
 /// The caller has checked `Level::Avx512.available()`.
@@ -17,8 +27,7 @@ pub(super) fn run<T: Task>(task: T) -> T::Out {
     fn inner<T: Task>(task: T) -> T::Out {
         task.run(Avx512(()))
     }
-    // SAFETY: `Level::run` calls this only where the features were detected; every
-    // processor with AVX-512 VL has AVX2, BMI, LZCNT and POPCNT.
+    // SAFETY: `Level::run` calls this only where `present` found every feature enabled here.
     unsafe { inner(task) }
 }
 

@@ -229,9 +229,9 @@ pub trait Task {
 pub enum Level {
     /// Plain Rust, on every machine.
     Portable,
-    /// x86-64 with AVX2.
+    /// x86-64 with AVX2, BMI1, BMI2, LZCNT and POPCNT.
     Avx2,
-    /// x86-64 with AVX-512 F, BW, DQ, VL and VBMI2: Intel's processors since Ice Lake, AMD's since Zen 4.
+    /// x86-64 with all of that and AVX-512 F, BW, DQ, VL and VBMI2: Intel's processors since Ice Lake, AMD's since Zen 4.
     Avx512,
     /// aarch64, where it is always present.
     Neon,
@@ -270,15 +270,9 @@ impl Level {
         match self {
             Self::Portable => true,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => is_x86_feature_detected!("avx2"),
+            Self::Avx2 => avx2::present(),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => {
-                is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512bw")
-                    && is_x86_feature_detected!("avx512dq")
-                    && is_x86_feature_detected!("avx512vl")
-                    && is_x86_feature_detected!("avx512vbmi2")
-            }
+            Self::Avx512 => avx512::present(),
             #[cfg(target_arch = "aarch64")]
             Self::Neon => true,
             #[allow(unreachable_patterns)]

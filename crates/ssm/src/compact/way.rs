@@ -72,7 +72,9 @@ impl Frame {
         }
         // The hit-in-padded-bounds invariant lets a hit lie a little outside of its box's range of t.
         let slack = (T_SLACK + TOUCH) * t_start.abs().max(t_end.abs());
-        if t_start > t_end + slack {
+        // Without end or beginning is only the range of a ray without direction; both would keep the walk from ending.
+        let finite = t_start + t_end + direction[0] + direction[1] + direction[2];
+        if t_start > t_end + slack || !finite.is_finite() {
             return None;
         }
         let span = (t_end - t_start).max(0.0);

@@ -1,0 +1,44 @@
+//! Rays that [`accel::Ray::validate`] turns down, given to the structures all the same: every walk ends, and nothing is hit.
+
+use accel::{Accel, Need, Ray, RaySet, Vec3};
+use harness::registry;
+use scenes::SceneSpec;
+
+fn unusable() -> Vec<Ray> {
+    let inside = Vec3::splat(0.01);
+    let mut rays = Vec::new();
+    for direction in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY, Vec3::new(f32::NAN, 1.0, 0.0)] {
+        rays.push(Ray::new(inside, direction));
+        rays.push(Ray { t_max: 7.0, ..Ray::new(inside, direction) });
+    }
+    for origin in [Vec3::NAN, Vec3::INFINITY, Vec3::new(0.0, f32::NEG_INFINITY, f32::NAN)] {
+        rays.push(Ray::new(origin, Vec3::X));
+    }
+    for (t_min, t_max) in [(f32::NAN, 1.0), (f32::INFINITY, f32::INFINITY), (0.0, f32::NAN)] {
+        rays.push(Ray { t_min, t_max, ..Ray::new(inside, Vec3::new(1.0, 0.2, 0.1)) });
+    }
+    assert!(rays.iter().all(|ray| ray.validate().is_err()));
+    rays
+}
+
+#[test]
+fn every_walk_ends_and_nothing_is_hit() {
+    let scene = scenes::load(&"small-1k".parse::<SceneSpec>().unwrap()).unwrap();
+    let rays = unusable();
+    let list = RaySet::List(rays.clone());
+    let mut tried = 0;
+    for spec in registry::with_variants(|entry| entry.traits.own_kernel && entry.traits.lists) {
+        let built = registry::choose(&spec).unwrap().builder.build(&scene, &Need::GENERAL).unwrap();
+        let mut hits = vec![None; rays.len()];
+        built.trace(&list, &mut hits);
+        let mut occluded = vec![false; rays.len()];
+        built.trace_occluded(&list, &mut occluded);
+        for (i, ray) in rays.iter().enumerate() {
+            let one = Accel::closest(built.as_ref(), ray);
+            assert_eq!((hits[i], one, occluded[i]), (None, None, false), "{spec} on {ray:?}");
+            assert!(!built.occluded(ray), "{spec} on {ray:?}");
+            tried += 1;
+        }
+    }
+    assert!(tried > 50);
+}
