@@ -21,6 +21,11 @@ pub enum Event<'a> {
         /// What kind of objects.
         kind: &'static str,
     },
+    /// What a user should know of how a scene was read.
+    SceneNote {
+        /// The note, a sentence.
+        note: &'a str,
+    },
     /// A scene is not on this machine.
     SceneSkipped {
         /// Its name.
@@ -57,6 +62,7 @@ impl fmt::Display for Event<'_> {
             Self::SceneBegun { id, place, of, objects, kind } => {
                 write!(f, "{id} ({place} of {of}): {} {kind}", count(*objects as u64))
             }
+            Self::SceneNote { note } => f.write_str(note),
             Self::SceneSkipped { id, reason } => write!(f, "{id}: skipped: {reason}"),
             Self::RaySetDone { rays, pass: 1, .. } => write!(f, "{rays}"),
             Self::RaySetDone { rays, pass, passes } => write!(f, "{rays}, pass {pass} of {passes}"),

@@ -1,9 +1,11 @@
 //! What verbs say, and to whom: results to standard output, progress and notes to standard error.
 
 use crate::error::Error;
+use accel::Scene;
 use anstream::stream::IsTerminal;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use scenes::{SceneError, SceneSpec};
 use serde::Serialize;
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -112,6 +114,16 @@ impl Console {
             // Nobody is left to be told that standard error is closed.
             let _ = writeln!(anstream::stderr(), "{text}");
         }
+    }
+
+    /// Loads a scene and says what a user should know of how it was read.
+    ///
+    /// # Errors
+    /// Scenes that are not known or not sound.
+    pub fn scene(&self, spec: &SceneSpec) -> Result<Scene, SceneError> {
+        let loaded = scenes::load_full(spec)?;
+        loaded.notes.iter().for_each(|note| self.note(note));
+        Ok(loaded.scene)
     }
 
     /// Says what went wrong and what to do.

@@ -27,6 +27,11 @@ impl Listener for Progress<'_> {
         if matches!(event, Event::RaySetDone { .. } | Event::SceneChecked { .. } | Event::MeshBegun { .. }) {
             self.bar.inc(1);
         }
+        if let Event::SceneNote { .. } = event {
+            // More than what is being done: it stays when the bar is gone.
+            self.bar.suspend(|| self.console.note(event));
+            return;
+        }
         if !self.bar.is_hidden() {
             self.bar.set_message(event.to_string());
             return;

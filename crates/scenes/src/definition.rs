@@ -1,8 +1,8 @@
 //! Scene definitions: TOML files that say everything about a scene.
 
+use crate::camera::Camera;
 use crate::generate::Generator;
 use crate::modifier::Transform;
-use accel::{Vec3, View};
 use serde::Deserialize;
 
 /// One TOML file under `scenes/`, or a user's own.
@@ -41,8 +41,9 @@ pub struct Definition {
     pub transform: Transform,
     /// Triangles are cut until no edge is longer (Skala 1993, §2).
     pub split: Option<f64>,
-    /// The camera, before the transform; by default one that sees the whole scene.
-    pub view: Option<ViewHint>,
+    /// The camera, before the transform; what is not told is as in one that sees the whole scene.
+    #[serde(default)]
+    pub view: Camera,
 }
 
 /// A mesh that is fetched at set-up, or a user's own.
@@ -63,43 +64,8 @@ pub struct MeshFile {
     pub triangles: Option<u64>,
 }
 
-/// A camera.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct ViewHint {
-    /// Where the camera is.
-    pub eye: [f32; 3],
-    /// What it looks at.
-    pub target: [f32; 3],
-    /// What points up in the image.
-    #[serde(default = "z_up")]
-    pub up: [f32; 3],
-    /// Vertical opening angle in degrees.
-    #[serde(default = "forty_five")]
-    pub fov: f32,
-}
-
 fn one() -> u64 {
     1
-}
-
-fn z_up() -> [f32; 3] {
-    [0.0, 0.0, 1.0]
-}
-
-fn forty_five() -> f32 {
-    45.0
-}
-
-impl From<ViewHint> for View {
-    fn from(hint: ViewHint) -> Self {
-        Self {
-            eye: Vec3::from_array(hint.eye),
-            target: Vec3::from_array(hint.target),
-            up: Vec3::from_array(hint.up),
-            fov_y_degrees: hint.fov,
-        }
-    }
 }
 
 impl Definition {
@@ -118,18 +84,6 @@ impl Definition {
         let origins = [self.generator.is_some(), self.file.is_some(), self.base.is_some()];
         if origins.iter().filter(|given| **given).count() != 1 {
             return Err("exactly one of `generator`, `file` and `base` must be given".into());
-        }
-        if let Some(view) = self.view.map(View::from) {
-            let finite = view.eye.is_finite() && view.target.is_finite() && view.up.is_finite();
-            let across = (view.target - view.eye).cross(view.up);
-            if !finite
-                || across.length_squared() == 0.0
-                || !(view.fov_y_degrees > 0.0 && view.fov_y_degrees < 180.0)
-            {
-                return Err(
-                    "the view needs finite points, an `up` across its direction and 0 < fov < 180".into()
-                );
-            }
         }
         if self.split.is_some_and(|length| !(length > 0.0 && length.is_finite())) {
             return Err("`split` must be a positive length".into());
@@ -153,7 +107,9 @@ mod tests {
             ("[generator]\nkind = 'sombrero'\nsize = 1", "size"),
             ("base = 'x'\nsplit = -1.0", "positive length"),
             ("base = 'x'\n[transform]\nscale_exponent = 4000", "exponent"),
-            ("base = 'x'\n[view]\neye = [0, 0, 1]\ntarget = [0, 0, 0]", "up"),
+            ("base = 'x'\n[view]\nup = 'w'", "axis"),
+            ("base = 'x'\n[view]\nup = [0, 0, 0]", "other than zero"),
+            ("base = 'x'\n[view]\nroll = 3", "roll"),
             ("base = 'x'\nbogus = 1", "bogus"),
         ] {
             let error = Definition::parse(&format!("{HEAD}{text}")).unwrap_err();

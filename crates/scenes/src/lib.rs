@@ -12,6 +12,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod camera;
 mod catalog;
 mod checksum;
 mod definition;
@@ -45,4 +46,4 @@ pub use reader::{Polygons, file_sha256, mesh as load_mesh};
 pub use resolve::{Loaded, load, load_full};
 pub use spec::{SceneSpec, Source};
 pub use split::{Split, split};
-pub use view::framing;
+pub use view::{framing, upright};

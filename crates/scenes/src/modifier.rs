@@ -1,8 +1,9 @@
 //! Changes to a scene that a definition or an id asks for: transform and split.
 //!
 //! An id takes modifiers after `@`: `sponza@scale=-20`, `bumps-20k@offset=1e5,0,0`,
-//! `stadium@split=0.5@scale=10`.
+//! `stadium@split=0.5@scale=10`, `model.obj@up=z`.
 
+use crate::camera::{self, Camera};
 use crate::split::Split;
 use accel::{Aabb, Geometry, Vec3, View};
 use glam::DVec3;
@@ -61,18 +62,18 @@ pub struct Modifiers {
     pub transform: Transform,
     /// Split in place of the definition's.
     pub split: Option<f64>,
+    /// Camera in place of the scene's, in coordinates as they are after all else.
+    pub camera: Camera,
 }
 
 impl Modifiers {
-    /// Cuts `id` at its first `@` and reads the modifiers behind it.
+    /// Reads the modifiers of a suffix such as `@scale=3@up=y`.
     ///
     /// # Errors
     /// In words, a modifier that makes no sense.
-    pub fn parse(id: &str) -> Result<(&str, Self), String> {
-        let mut parts = id.split('@');
-        let base = parts.next().unwrap_or_default();
+    pub fn parse(suffix: &str) -> Result<Self, String> {
         let mut modifiers = Self::default();
-        for part in parts {
+        for part in suffix.split('@').skip(1) {
             let (name, value) = part.split_once('=').unwrap_or((part, ""));
             let bad = |what: &str| format!("`@{part}`: {what}");
             match name {
@@ -93,11 +94,18 @@ impl Modifiers {
                     modifiers.split =
                         Some(length.ok_or_else(|| bad("expected a positive length, as in `@split=0.5`"))?);
                 }
-                _ => return Err(bad("the modifiers are `scale`, `offset` and `split`")),
+                "up" => modifiers.camera.up = Some(camera::up(value).map_err(|what| bad(&what))?),
+                "eye" => modifiers.camera.eye = Some(camera::point(value).map_err(|what| bad(&what))?),
+                "target" => modifiers.camera.target = Some(camera::point(value).map_err(|what| bad(&what))?),
+                "fov" => modifiers.camera.fov = Some(camera::fov(value).map_err(|what| bad(&what))?),
+                _ => {
+                    let known = "`scale`, `offset`, `split`, `up`, `eye`, `target` and `fov`";
+                    return Err(bad(&format!("the modifiers are {known}")));
+                }
             }
         }
         modifiers.transform.validate()?;
-        Ok((base, modifiers))
+        Ok(modifiers)
     }
 }
 
@@ -116,15 +124,31 @@ pub fn split(geometry: &mut Geometry, longest: f64) -> Result<Option<Vec<u32>>, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::Up;
 
     #[test]
     fn modifiers_are_read_and_slips_explained() {
-        let (base, modifiers) = Modifiers::parse("a-b@scale=-20@offset=1,2e3,-3@split=0.5").unwrap();
-        assert_eq!(base, "a-b");
+        let modifiers =
+            Modifiers::parse("@scale=-20@offset=1,2e3,-3@split=0.5@up=-y@eye=1,2,3@target=0,0,1@fov=30")
+                .unwrap();
         assert_eq!(modifiers.transform, Transform { scale_exponent: -20, offset: [1.0, 2000.0, -3.0] });
         assert_eq!(modifiers.split, Some(0.5));
-        for bad in ["a@", "a@scale=x", "a@offset=1,2", "a@split=0", "a@split=nan", "a@bogus=1", "a@scale=999"]
-        {
+        assert_eq!(modifiers.camera.up.map(Up::vector), Some(Vec3::NEG_Y));
+        let Camera { eye, target, fov, .. } = modifiers.camera;
+        assert_eq!((eye, target, fov), (Some([1.0, 2.0, 3.0]), Some([0.0, 0.0, 1.0]), Some(30.0)));
+        for bad in [
+            "@",
+            "@scale=x",
+            "@offset=1,2",
+            "@split=0",
+            "@split=nan",
+            "@bogus=1",
+            "@scale=999",
+            "@up=w",
+            "@eye=1,2",
+            "@target=inf,0,0",
+            "@fov=180",
+        ] {
             assert!(Modifiers::parse(bad).is_err(), "{bad}");
         }
     }

@@ -1,12 +1,13 @@
 //! From a scene's name to its geometry.
 
+use crate::camera::{self, Camera, Up};
 use crate::definition::{Definition, MeshFile};
 use crate::error::SceneError;
 use crate::modifier::{self, Transform};
 use crate::reader::{self, Polygons};
 use crate::spec::{SceneSpec, Source};
 use crate::{catalog, view};
-use accel::{Geometry, Mesh, Scene, Vec3, View};
+use accel::{Geometry, Mesh, Scene, Vec3};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -39,11 +40,51 @@ pub fn load(spec: &SceneSpec) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`].
 pub fn load_full(spec: &SceneSpec) -> Result<Loaded, SceneError> {
-    resolve(spec, DEEPEST)
+    resolve(spec, DEEPEST).map(|staged| staged.loaded)
 }
 
-fn resolve(spec: &SceneSpec, depth: u32) -> Result<Loaded, SceneError> {
-    let mut loaded = match &spec.source {
+/// A scene under way.
+struct Staged {
+    loaded: Loaded,
+    /// Whether the camera is still one that frames the scene, rather than one that stands somewhere.
+    framed: bool,
+}
+
+impl Staged {
+    /// A scene without a name, framed as its kind is: files that `up_of` knows upright, all else as the
+    /// suite's own scenes.
+    fn new(geometry: Geometry, up: Option<Vec3>, source: String, notes: Vec<String>) -> Self {
+        let view = match up {
+            Some(up) => view::upright(&geometry, up, view::FOV),
+            None => view::framing(&geometry),
+        };
+        let scene = Scene { id: String::new(), geometry, view };
+        Self { loaded: Loaded { scene, original: None, source, notes }, framed: true }
+    }
+
+    /// Turns the camera to what is told of it.
+    fn aim(&mut self, camera: &Camera, origin: &str) -> Result<(), SceneError> {
+        if camera.is_silent() {
+            return Ok(());
+        }
+        let Scene { geometry, view, .. } = &mut self.loaded.scene;
+        if self.framed && (camera.up.is_some() || camera.fov.is_some()) {
+            let up = camera.up.map_or(view.up, Up::vector);
+            *view = view::upright(geometry, up, camera.fov.unwrap_or(view.fov_y_degrees));
+        }
+        camera.apply(view);
+        self.framed &= camera.eye.is_none() && camera.target.is_none();
+        camera::validate(view).map_err(|reason| bad(format!("`{origin}`"), reason))
+    }
+}
+
+/// What is up in a mesh file, where its format says so: OBJ has y up unless told otherwise.
+fn up_of(path: &Path) -> Option<Vec3> {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")).then_some(Vec3::Y)
+}
+
+fn resolve(spec: &SceneSpec, depth: u32) -> Result<Staged, SceneError> {
+    let mut staged = match &spec.source {
         Source::Id(id) => define(&catalog::definition(id)?, None, depth)?,
         Source::Definition(path) => {
             let text =
@@ -53,24 +94,26 @@ fn resolve(spec: &SceneSpec, depth: u32) -> Result<Loaded, SceneError> {
         }
         Source::Mesh(path) => {
             let (mesh, notes) = noted(path, reader::mesh(path)?);
-            let geometry = Geometry::Triangles(mesh);
-            let id = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-            let view = view::framing(&geometry);
-            let scene = Scene { id, geometry, view };
-            Loaded { scene, original: None, source: path.display().to_string(), notes }
+            let source = path.display().to_string();
+            let mut staged = Staged::new(Geometry::Triangles(mesh), up_of(path), source, notes);
+            let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            staged.loaded.scene.id = stem.unwrap_or_default();
+            staged
         }
     };
+    let Staged { loaded, .. } = &mut staged;
     loaded.scene.id.push_str(&spec.suffix);
     let origin = loaded.scene.id.clone();
-    change(&mut loaded, &origin, spec.modifiers.split, &spec.modifiers.transform)?;
-    Ok(loaded)
+    change(loaded, &origin, spec.modifiers.split, &spec.modifiers.transform)?;
+    staged.aim(&spec.modifiers.camera, &origin)?;
+    Ok(staged)
 }
 
 fn bad(origin: impl std::fmt::Display, reason: String) -> SceneError {
     SceneError::Definition { origin: origin.to_string(), reason }
 }
 
-fn define(definition: &Definition, folder: Option<&Path>, depth: u32) -> Result<Loaded, SceneError> {
+fn define(definition: &Definition, folder: Option<&Path>, depth: u32) -> Result<Staged, SceneError> {
     let origin = format!("`{}`", definition.id);
     if let Some(base) = &definition.base {
         if depth == 0 {
@@ -82,30 +125,27 @@ fn define(definition: &Definition, folder: Option<&Path>, depth: u32) -> Result<
         }
         return finish(definition, resolve(&spec, depth - 1)?);
     }
-    let (geometry, source, notes) = match (&definition.generator, &definition.file) {
+    let staged = match (&definition.generator, &definition.file) {
         (Some(generator), _) => {
             let geometry = generator.build(definition.seed).map_err(|reason| bad(&origin, reason))?;
-            (geometry, format!("generated, seed {}", definition.seed), Vec::new())
+            Staged::new(geometry, None, format!("generated, seed {}", definition.seed), Vec::new())
         }
         (None, Some(file)) => {
             let source = if file.source.is_empty() { &file.name } else { &file.source };
             let (mesh, notes) = read(&definition.id, file, folder)?;
-            (Geometry::Triangles(mesh), source.clone(), notes)
+            let up = up_of(Path::new(&file.name));
+            Staged::new(Geometry::Triangles(mesh), up, source.clone(), notes)
         }
         (None, None) => return Err(bad(&origin, "it has no geometry".into())),
     };
-    let view = view::framing(&geometry);
-    let scene = Scene { id: String::new(), geometry, view };
-    finish(definition, Loaded { scene, original: None, source, notes })
+    finish(definition, staged)
 }
 
-fn finish(definition: &Definition, mut loaded: Loaded) -> Result<Loaded, SceneError> {
-    loaded.scene.id.clone_from(&definition.id);
-    if let Some(hint) = definition.view {
-        loaded.scene.view = View::from(hint);
-    }
-    change(&mut loaded, &definition.id, definition.split, &definition.transform)?;
-    Ok(loaded)
+fn finish(definition: &Definition, mut staged: Staged) -> Result<Staged, SceneError> {
+    staged.loaded.scene.id.clone_from(&definition.id);
+    staged.aim(&definition.view, &definition.id)?;
+    change(&mut staged.loaded, &definition.id, definition.split, &definition.transform)?;
+    Ok(staged)
 }
 
 /// Splits, then transforms; the result must be finite.
@@ -142,11 +182,18 @@ fn change(
             "scaled by 2^{exponent} its coordinates vanish: the largest was {before:e} and becomes {after:e}"
         ));
     }
+    if !(view.eye.is_finite() && view.target.is_finite()) {
+        return out_of_scale(format!(
+            "its camera is at {}, looking at {}: not finite",
+            view.eye, view.target
+        ));
+    }
     Ok(())
 }
 
-/// Coordinates are up to 2¹²⁶: then extents, padded or not, are finite.
-const LARGEST: f32 = f32::from_bits(0x7e80_0000);
+/// Coordinates are up to 2¹²⁴: then extents, padded or not, are finite, and so are the places around the
+/// scene that rays start from.
+const LARGEST: f32 = f32::from_bits(0x7d80_0000);
 
 /// The largest magnitude of a coordinate.
 fn largest(geometry: &Geometry) -> f32 {

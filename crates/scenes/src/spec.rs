@@ -33,12 +33,12 @@ impl FromStr for SceneSpec {
     /// `.toml`, `.obj` and `.ply` make a path of a name; all else is an id. Modifiers follow
     /// after `@`.
     fn from_str(text: &str) -> Result<Self, SceneError> {
-        // A path may hold an @ of its own.
-        if let Some(source) = file(text) {
-            return Ok(Self { source, modifiers: Modifiers::default(), suffix: String::new() });
-        }
+        // A path may hold an @ of its own: the modifiers begin at the last one that a path can end at.
+        let ends = text.match_indices('@').map(|(i, _)| i).chain([text.len()]);
+        let path_end = ends.rev().find(|end| file(&text[..*end]).is_some());
+        let (base, suffix) = text.split_at(path_end.or(text.find('@')).unwrap_or(text.len()));
         let bad = |reason| SceneError::Definition { origin: format!("`{text}`"), reason };
-        let (base, modifiers) = Modifiers::parse(text).map_err(bad)?;
+        let modifiers = Modifiers::parse(suffix).map_err(bad)?;
         let source = match file(base) {
             Some(source) => source,
             None if Path::new(base).is_file() => {
@@ -46,7 +46,7 @@ impl FromStr for SceneSpec {
             }
             None => Source::Id(base.to_owned()),
         };
-        Ok(Self { source, modifiers, suffix: text[base.len()..].to_owned() })
+        Ok(Self { source, modifiers, suffix: suffix.to_owned() })
     }
 }
 
@@ -68,6 +68,7 @@ mod tests {
         let source = |text: &str| text.parse::<SceneSpec>().unwrap().source;
         assert_eq!(source("small-10k"), Source::Id("small-10k".into()));
         assert_eq!(source("a/b@c.OBJ"), Source::Mesh("a/b@c.OBJ".into()));
+        assert_eq!(source("a@b/c@d.obj@up=z"), Source::Mesh("a@b/c@d.obj".into()));
         assert_eq!(source("x.ply@scale=3"), Source::Mesh("x.ply".into()));
         assert_eq!(source("x.toml"), Source::Definition("x.toml".into()));
         assert_eq!("x@scale=3".parse::<SceneSpec>().unwrap().suffix, "@scale=3");

@@ -66,6 +66,9 @@ fn bits_never_change() {
         ("needles", "318a8ec88f05"),
         ("shells", "96570e4efa56"),
         ("boxes-1000-25", "b250a56c9633"),
+        ("foliage-1k", "696e5bf2e3ac"),
+        ("strands-1k", "fece751bffc5"),
+        ("clutter-1k", "d846cbca1e41"),
     ];
     let found = expected.map(|(id, _)| (id, checksum(&get(id).unwrap().geometry)[..12].to_owned()));
     assert_eq!(found, expected.map(|(id, bits)| (id, bits.to_owned())));
@@ -175,8 +178,62 @@ fn scales_that_single_precision_cannot_reckon_with_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let wide = file(&folder, "wide.obj", "v -3e38 0 0\nv 3e38 0 0\nv 0 1 0\nf 1 2 3");
     assert!(matches!(get(wide.to_str().unwrap()), Err(SceneError::OutOfScale { .. })));
-    for fine in ["bumps-1k@scale=125", "bumps-1k@scale=-120", "unit-empty@scale=-200"] {
+    for fine in ["bumps-1k@scale=123", "bumps-1k@scale=-120", "unit-empty@scale=-200"] {
         assert!(get(fine).is_ok(), "{fine}");
+    }
+}
+
+#[test]
+fn cameras_are_as_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, "a.obj", format!("{TETRAHEDRON}f 1 2 3"));
+    let name = path.to_str().unwrap();
+    let view = |suffix: &str| get(&format!("{name}{suffix}")).unwrap().view;
+    assert_eq!(view("").up, Vec3::Y, "OBJ has y up");
+    assert_eq!(view("@up=z").up, Vec3::Z);
+    assert_ne!(view("@up=z").eye, view("").eye, "another frame");
+    assert_eq!(view("@fov=20").fov_y_degrees, 20.0);
+    assert!(view("@fov=20").eye.length() > 1.5 * view("").eye.length(), "it still fills the picture");
+    let stands = view("@eye=3,4,5@target=0,0,1@up=0,0,2@fov=60");
+    assert_eq!((stands.eye, stands.target), (Vec3::new(3.0, 4.0, 5.0), Vec3::Z));
+    assert_eq!((stands.up, stands.fov_y_degrees), (Vec3::Z * 2.0, 60.0));
+    // A camera that stands somewhere is not moved by another `up`.
+    assert_eq!(get("sponza@up=z").map(|scene| scene.view.eye).ok(), get("sponza").map(|s| s.view.eye).ok());
+    assert_eq!(get("bumps-1k@eye=3,0,0").unwrap().view.eye, Vec3::X * 3.0);
+    for (suffix, says) in [
+        ("@eye=0,0,0@target=0,0,0", "one point"),
+        ("@eye=0,5,0@target=0,0,0", "`up`"),
+        ("@eye=1e39,0,0", "finite"),
+    ] {
+        let error = get(&format!("{name}{suffix}")).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+    let head = "id = 'own'\ndescription = 'mine'\ncharacter = 'own'\n[file]\nname = 'a.obj'\n";
+    let own = |text: &str| {
+        let path = file(&folder, "own.toml", format!("{head}{text}"));
+        get(path.to_str().unwrap()).unwrap().view
+    };
+    assert_eq!(own(""), view(""));
+    assert_eq!(own("[view]\nup = 'z'\nfov = 20"), view("@up=z@fov=20"));
+    let standing = own("[view]\neye = [3, 4, 5]\ntarget = [0, 0, 1]");
+    assert_eq!((standing.eye, standing.up), (Vec3::new(3.0, 4.0, 5.0), Vec3::Y));
+}
+
+/// Where the cameras of the suite's meshes stand, and their bits: figures in old records stay comparable.
+#[test]
+fn meshes_that_are_here_are_what_they_were() {
+    for (id, bits, eye) in [
+        ("bunny", "761244586e09", [1.6, 0.9, 4.6]),
+        ("dragon", "693ee0bb506e", [-0.12, 0.2, 0.34]),
+        ("sponza", "01ab0f32fd6a", [-9.0, 3.0, 0.0]),
+    ] {
+        match get(id) {
+            Ok(scene) => {
+                assert_eq!(checksum(&scene.geometry)[..12], *bits, "{id}");
+                assert_eq!((scene.view.eye, scene.view.up), (Vec3::from_array(eye), Vec3::Y), "{id}");
+            }
+            Err(error) => assert!(error.is_unavailable(), "{error}"),
+        }
     }
 }
 

@@ -66,6 +66,9 @@ pub fn run(
             objects: scene.geometry.len(),
             kind: scene.geometry.kind(),
         });
+        for note in &loaded.notes {
+            listener.hear(&Event::SceneNote { note });
+        }
         let entry = SceneEntry {
             id: scene.id.clone(),
             objects: scene.geometry.len() as u64,

@@ -1,11 +1,13 @@
 //! Options that verbs share.
 
+mod camera;
 mod filter;
 mod kernel;
 mod names;
 mod selection;
 mod values;
 
+pub use camera::CameraOptions;
 pub use filter::Filter;
 pub use kernel::{KernelOptions, per_million};
 pub use names::structures;

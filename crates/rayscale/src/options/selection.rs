@@ -1,5 +1,6 @@
 //! What verbs that run structures choose from: scenes, ray sets, structures, kernel.
 
+use super::camera::CameraOptions;
 use super::kernel::KernelOptions;
 use super::names::{ray_sets, structures};
 use crate::error::Error;
@@ -21,6 +22,8 @@ pub struct Selection {
     #[arg(long = "structure", value_name = "ID", value_parser = structures(), hide_possible_values = true)]
     pub structures: Vec<String>,
     #[command(flatten)]
+    pub camera: CameraOptions,
+    #[command(flatten)]
     pub kernel: KernelOptions,
     /// Rows and columns of rasters; lists have as many rays. 256, or what fits a full run
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
@@ -36,7 +39,8 @@ impl Selection {
     /// # Errors
     /// A scene that is not known, or a file that holds none.
     pub fn scenes(&self) -> Result<Vec<String>, Error> {
-        for name in &self.scenes {
+        let named: Vec<String> = self.scenes.iter().map(|scene| self.camera.named(scene)).collect();
+        for name in &named {
             let spec: SceneSpec = name.parse()?;
             match &spec.source {
                 scenes::Source::Id(id) => drop(scenes::describe(id)?),
@@ -44,10 +48,11 @@ impl Selection {
                 scenes::Source::Definition(_) | scenes::Source::Mesh(_) => drop(scenes::load(&spec)?),
             }
         }
-        if !self.scenes.is_empty() {
-            return Ok(self.scenes.clone());
+        if !named.is_empty() {
+            return Ok(named);
         }
-        Ok(scenes::list().into_iter().filter(|info| info.default).map(|info| info.id).collect())
+        let default = scenes::list().into_iter().filter(|info| info.default);
+        Ok(default.map(|info| self.camera.named(&info.id)).collect())
     }
 
     /// The ray sets chosen, or `otherwise`.

@@ -87,7 +87,7 @@ impl Verb for Recommend {
         let selection = Selection { rays: self.rays.clone(), ..Selection::default() };
         let rays = selection.rays([])?;
         let spec: SceneSpec = self.scene.parse()?;
-        let scene = scenes::load(&spec)?;
+        let scene = console.scene(&spec)?;
         let choices = choices(&scene, self.max_error.is_some())?;
         let session = Session {
             scenes: vec![self.scene.clone()],

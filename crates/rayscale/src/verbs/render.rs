@@ -3,7 +3,7 @@
 use super::hits::trace;
 use crate::console::Console;
 use crate::error::Error;
-use crate::options::{KernelOptions, shadings, structures};
+use crate::options::{CameraOptions, KernelOptions, shadings, structures};
 use crate::verb::{Outcome, Verb};
 use accel::{Raster, RaySet, Scene};
 use clap::{Args, ValueEnum};
@@ -32,11 +32,14 @@ hits another object, sky blue where it hits the same object elsewhere. Exit code
 Examples:
   rayscale render bumps-200k --out bumps.png
   rayscale render model.obj --structure ssm --shade normal --size 1024x768 --out model.png
+  rayscale render model.obj --up z --eye 4,-3,2 --target 0,0,1 --fov 30 --out model.png
   rayscale render sponza --projection parallel --shade object --out sponza.png
   rayscale render stadium --structure ssm:kernel=watertight --against brute --out difference.png")]
 pub struct Render {
     /// Scene: an id, a definition or a mesh
-    scene: SceneSpec,
+    scene: String,
+    #[command(flatten)]
+    camera: CameraOptions,
     /// The file to write
     #[arg(long, value_name = "FILE.png")]
     out: PathBuf,
@@ -99,7 +102,8 @@ impl Verb for Render {
         let choice = self.kernel.choose_one(&self.structure)?;
         let plain = KernelOptions::default();
         let against = self.against.as_deref().map(|text| plain.choose_one(text)).transpose()?;
-        let scene = scenes::load(&self.scene)?;
+        let spec: SceneSpec = self.camera.named(&self.scene).parse()?;
+        let scene = console.scene(&spec)?;
         let raster = self.raster(&scene);
         let rays = RaySet::Raster(raster);
         let first = trace(console, &choice, &scene, &rays)?;

@@ -15,7 +15,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
 A scene is an id of the list, a TOML definition (see scenes/) or an OBJ or ASCII PLY file.
 Behind an id or file, `@` changes it: `sponza@scale=-20` (2^-20 times as large),
-`bumps-20k@offset=1e5,0,0`, `stadium@split=0.5` (edges cut to at most that length).
+`bumps-20k@offset=1e5,0,0`, `stadium@split=0.5` (edges cut to at most that length),
+`model.obj@up=z@eye=4,-3,2@target=0,0,1@fov=30` (the camera; each may be left out).
 
 Examples:
   rayscale scenes
@@ -65,7 +66,7 @@ impl Verb for Scenes {
             None | Some(What::List) => list(console)?,
             Some(What::Describe { scene }) => describe(console, scene)?,
             Some(What::Export { scene, out }) => {
-                let loaded = scenes::load(scene)?;
+                let loaded = console.scene(scene)?;
                 scenes::export_obj(&loaded, out)?;
                 let objects = loaded.geometry.len();
                 let kind = loaded.geometry.kind();

@@ -59,7 +59,7 @@ impl Verb for Trace {
         let choice = self.kernel.choose_one(&self.structure)?;
         self.spare_the_rays()?;
         let rays = read(&self.rays)?;
-        let scene = scenes::load(&self.scene)?;
+        let scene = console.scene(&self.scene)?;
         let traced = trace(console, &choice, &scene, &RaySet::List(rays))?;
         let written = write_whole(&self.out, |out| write_hits(out, &traced.hits));
         written.map_err(|error| Error::io(self.out.display(), error))?;

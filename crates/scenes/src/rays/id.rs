@@ -232,7 +232,7 @@ impl FromStr for RaysId {
 }
 
 /// Why there are no rays.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RaysError {
     /// No set of this name.
     #[error("there is no ray set `{id}`; near: {}; there are: {}", .near.join(", "), RaysId::ALL.map(RaysId::name).join(", "))]
@@ -249,6 +249,16 @@ pub enum RaysError {
         rays: RaysId,
         /// The scene.
         scene: String,
+    },
+    /// The scene's camera or coordinates make a ray that structures don't accept.
+    #[error("`{rays}` rays of scene `{scene}` can't be traced: {source}")]
+    Unusable {
+        /// The set.
+        rays: RaysId,
+        /// The scene.
+        scene: String,
+        /// What is wrong with the first such ray.
+        source: accel::RayError,
     },
     /// Rays of this set aim at objects, and there are none.
     #[error("`{rays}` rays aim at objects, and scene `{scene}` has none")]

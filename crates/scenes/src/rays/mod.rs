@@ -40,7 +40,8 @@ use accel::{Accel, RaySet, Scene};
 ///
 /// # Errors
 /// [`RaysError::NoHits`] where rays start from hits and the view meets nothing,
-/// [`RaysError::NoObjects`] where they aim at objects and there is none.
+/// [`RaysError::NoObjects`] where they aim at objects and there is none, [`RaysError::Unusable`] where
+/// one of them is no ray that structures accept.
 ///
 /// # Panics
 /// If `tracer` serves general rays no better than to panic.
@@ -48,13 +49,26 @@ pub fn generate(scene: &Scene, spec: &RaysSpec, tracer: &dyn Accel) -> Result<Ra
     let RaysSpec { id, rows, cols, .. } = *spec;
     let list = match id {
         RaysId::Parallel => {
-            return Ok(RaySet::Raster(parallel(&scene.view, &scene.geometry.bounds(), rows, cols)));
+            let raster = parallel(&scene.view, &scene.geometry.bounds(), rows, cols);
+            return checked(scene, id, RaySet::Raster(raster));
         }
-        RaysId::Perspective => return Ok(RaySet::Raster(perspective(&scene.view, rows, cols))),
+        RaysId::Perspective => {
+            return checked(scene, id, RaySet::Raster(perspective(&scene.view, rows, cols)));
+        }
         RaysId::Shadow | RaysId::Ambient | RaysId::Diffuse => spawn::from_hits(scene, spec, tracer)?,
         RaysId::Random => lines::random(scene, spec),
         RaysId::Axis => lines::axis(scene, spec),
         _ => stress::rays(scene, spec, tracer)?,
     };
-    Ok(RaySet::List(list))
+    checked(scene, id, RaySet::List(list))
+}
+
+/// The set, if structures accept all its rays.
+fn checked(scene: &Scene, id: RaysId, rays: RaySet) -> Result<RaySet, RaysError> {
+    for i in 0..rays.len() {
+        if let Err(source) = rays.ray(i).validate() {
+            return Err(RaysError::Unusable { rays: id, scene: scene.id.clone(), source });
+        }
+    }
+    Ok(rays)
 }
