@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod aabb;
+mod camera;
 pub mod dda;
 mod footprint;
 pub mod grid;

@@ -5,7 +5,7 @@ use accel::{
     Scene, Vec3, View,
 };
 use baselines::Brute;
-use bmssm::dense::{Axis, BmssmDense};
+use bmssm::suite::dense::{Axis, BmssmDense};
 use lanes::Level;
 use primitives::KernelId;
 use proptest::prelude::*;
@@ -246,11 +246,11 @@ fn the_footprint_is_the_maps_that_the_need_names() {
 fn impossible_settings_are_errors_before_anything_is_allocated() {
     let scene = lattice();
     let mut dense = builder("memory=1000");
-    dense.settings.resolution = bmssm::dense::Resolution::Same(16_384);
+    dense.settings.resolution = bmssm::suite::dense::Resolution::Same(16_384);
     let error = dense.build(&scene, &Need::GENERAL).err().unwrap();
     let bytes = 3 * 16_384 * 16;
     assert_eq!(error, BuildError::TooLarge { structure: "bmssm-dense".into(), bytes, limit: 1000 });
-    dense.settings.resolution = bmssm::dense::Resolution::Same(0);
+    dense.settings.resolution = bmssm::suite::dense::Resolution::Same(0);
     assert!(matches!(dense.build(&scene, &Need::GENERAL), Err(BuildError::Setting { .. })));
     assert!(matches!(dense.set("resolution", "0"), Err(BuildError::Setting { .. })));
 }

@@ -3,7 +3,7 @@
 //! `cargo run --release --example bmssm`
 
 use accel::{Builder, Need, Ray, RaySet, Vec3};
-use bmssm::fast::Bmssm;
+use bmssm::suite::fast::Bmssm;
 use scenes::rays::perspective;
 use std::error::Error;
 

@@ -3,7 +3,7 @@
 //! `cargo run --release --example bmssm_dense`
 
 use accel::{Builder, Need, Ray, RaySet, Vec3};
-use bmssm::dense::BmssmDense;
+use bmssm::suite::dense::BmssmDense;
 use scenes::rays::perspective;
 use std::error::Error;
 

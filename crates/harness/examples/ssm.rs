@@ -12,7 +12,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let scene = scenes::load(&"bumps-2k".parse()?)?;
 
     // Any rays: this structure is built for all of them.
-    let builder = ssm::Ssm::default();
+    let builder = ssm::suite::Ssm::default();
     let accel = builder.build(&scene, &Need::GENERAL)?;
     let ray = Ray::new(Vec3::new(0.0, 0.0, 9.0), Vec3::NEG_Z);
     let hit = accel.closest(&ray).ok_or("the ray meets the sphere")?;

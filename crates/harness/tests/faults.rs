@@ -7,7 +7,7 @@ use accel::{
     Aabb, Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Nearest, Need, Objects, Ray, Scene,
     Surface,
 };
-use bmssm::general::{General, Settings};
+use bmssm::suite::general::{General, Settings};
 use harness::registry::{Choice, ChosenKernel, Entry};
 use harness::sweeps::{differences, leaks, oracle};
 use lanes::packet::{Lanes, Packet};
@@ -213,8 +213,11 @@ impl Builder for Planted {
             Self::Kernel { open_edges: true } => Box::new(All(Triangles::<OpenEdges>::new(mesh))),
             Self::Kernel { open_edges: false } => Box::new(All(Triangles::<Watertight>::new(mesh))),
             Self::Maps { inwards } => {
-                let settings =
-                    Settings { simd: Level::best(), stretch: 1024, storage: bmssm::general::Storage::Rows };
+                let settings = Settings {
+                    simd: Level::best(),
+                    stretch: 1024,
+                    storage: bmssm::suite::general::Storage::Rows,
+                };
                 Box::new(Maps(General::new(&Rounded::new(mesh, inwards), settings)))
             }
             Self::Walk { skips_corners } => Box::new(Cells::new(mesh, skips_corners)),

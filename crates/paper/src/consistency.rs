@@ -2,7 +2,7 @@
 
 use accel::{Accel, BuildError, Builder, Geometry, Hit, Need, Raster, RaySet, Scene, Vec3};
 use baselines::Brute;
-use bmssm::dense::{BmssmDense, ImageMaps};
+use bmssm::suite::dense::{BmssmDense, ImageMaps};
 use image::{Rgb, RgbImage};
 use lanes::PackedObjects;
 use primitives::KernelId;

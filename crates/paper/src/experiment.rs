@@ -99,7 +99,7 @@ pub fn scene(boxes: Vec<Aabb>) -> Scene {
 mod tests {
     use super::super::printed::{OBJECTS, SIDES, TABLE_6};
     use super::*;
-    use bmssm::dense::ImageMaps;
+    use bmssm::suite::dense::ImageMaps;
     use primitives::Boxes;
 
     #[test]

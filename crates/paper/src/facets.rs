@@ -2,7 +2,7 @@
 
 use super::timing::medians;
 use accel::{BuildError, Builder, Geometry, Group, Mesh, Need, Ray, RaySet, Scene};
-use bmssm::dense::{BmssmDense, Resolution};
+use bmssm::suite::dense::{BmssmDense, Resolution};
 use scenes::Random;
 use scenes::rays;
 use scenes::split;

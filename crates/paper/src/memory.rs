@@ -3,10 +3,10 @@
 use super::experiment::scene;
 use super::secondary::boxes;
 use accel::{Aabb, Builder, Group, Need, Objects};
-use bmssm::dense::{BmssmDense, Resolution};
+use bmssm::suite::dense::{BmssmDense, Resolution};
 use primitives::Boxes;
 use serde::{Deserialize, Serialize};
-use ssm::SsmList;
+use ssm::suite::SsmList;
 
 /// Slices on each axis.
 pub const RESOLUTIONS: [u32; 6] = [8, 16, 32, 64, 128, 256];

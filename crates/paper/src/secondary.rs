@@ -8,7 +8,7 @@ use super::timing::medians;
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{Aabb, Objects, Ray, Vec3};
-use bmssm::dense::SpaceMaps;
+use bmssm::suite::dense::SpaceMaps;
 use lanes::Level;
 use primitives::Boxes;
 use scenes::Random;

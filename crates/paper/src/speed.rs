@@ -9,7 +9,7 @@ use super::printed::{Cells, OBJECTS, SIDES, TABLE_2, TABLE_3, TABLE_4, TABLE_5};
 use super::table::{Table, grid};
 use super::timing::medians;
 use accel::{Aabb, Geometry, Projection, Raster, Vec3};
-use bmssm::dense::{Axis, ImageMaps};
+use bmssm::suite::dense::{Axis, ImageMaps};
 use lanes::Level;
 use primitives::Boxes;
 

@@ -1,7 +1,8 @@
 //! `ssm-list`: a counter, a pointer and a list of ids in each cell (Skala 1993, §5).
 
 use crate::register::{Limit, register};
-use crate::{Resolution, Settings};
+use crate::resolution::Resolution;
+use crate::settings::Settings;
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{

@@ -1,7 +1,7 @@
 //! Which references each cell holds: the two passes of Lagae and Dutré 2008, §3.2, on all
 //! threads of the current pool.
 
-use crate::Settings;
+use crate::settings::Settings;
 use accel::BuildError;
 use accel::parallel::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};

@@ -1,6 +1,6 @@
 //! What both grids can be told.
 
-use crate::Resolution;
+use crate::resolution::Resolution;
 use accel::BuildError;
 use accel::settings::{self, none_of};
 use lanes::Level;

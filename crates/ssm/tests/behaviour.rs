@@ -4,7 +4,7 @@ mod common;
 
 use accel::{BuildError, Builder, Group, Need};
 use common::{cloud, rays};
-use ssm::{Resolution, Settings, Ssm, SsmList};
+use ssm::suite::{Resolution, Settings, Ssm, SsmList};
 
 #[test]
 fn settings_that_make_no_sense_are_named() {

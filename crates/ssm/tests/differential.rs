@@ -7,7 +7,7 @@ use common::{boxes, cloud, compare, mesh, moved, rays, scene};
 use lanes::Level;
 use primitives::KernelId;
 use proptest::prelude::*;
-use ssm::{Resolution, Settings, Ssm, SsmList};
+use ssm::suite::{Resolution, Settings, Ssm, SsmList};
 
 /// All builders with these settings.
 fn builders(settings: Settings) -> [Box<dyn Builder>; 4] {

@@ -48,22 +48,27 @@ impl Builder for Bmssm {
     }
 
     fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
-        let plan = Plan::new(&self.settings, scene.geometry.len(), need, limit);
-        if plan.bytes > limit {
-            return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
-        }
-        Ok(primitives::with_objects(scene, self.settings.kernel, Build(plan)))
+        let build = Build { settings: self.settings, need: *need };
+        primitives::with_objects(scene, self.settings.kernel, build)
     }
 }
 
-struct Build(Plan);
+/// Builds for objects of any kind.
+pub(crate) struct Build {
+    pub settings: Settings,
+    pub need: Need,
+}
 
 impl<'s> WithObjects<'s> for Build {
-    type Out = Box<dyn Accel + 's>;
+    type Out = Result<Box<dyn Accel + 's>, BuildError>;
 
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
-        Box::new(Built::new(objects, self.0))
+        let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
+        let plan = Plan::new(&self.settings, objects.len(), &self.need, limit);
+        if plan.bytes > limit {
+            return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
+        }
+        Ok(Box::new(Built::new(objects, plan)))
     }
 }
 

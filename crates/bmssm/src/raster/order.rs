@@ -58,8 +58,9 @@ impl<O: Objects> Task for Projected<'_, O> {
             }
             let pixels = self.space.pixels_of(&bounds);
             for lane in 0..LANES.min(end - first) {
-                let Pixels { rows, cols, near } = pixels.lane(lane);
-                if rows.start < rows.end && cols.start < cols.end {
+                let seen = pixels.lane(lane);
+                if !seen.is_empty() {
+                    let Pixels { rows, cols, near } = seen;
                     shown.push(Shown {
                         id: (first + lane) as u32,
                         rows: [rows.start / THICKNESS, (rows.end - 1) / THICKNESS],

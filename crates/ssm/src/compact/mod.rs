@@ -8,7 +8,8 @@ mod trace;
 mod way;
 
 use crate::register::{Limit, register};
-use crate::{Resolution, Settings};
+use crate::resolution::Resolution;
+use crate::settings::Settings;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
 use accel::{Accel, BuildError, Builder, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes};

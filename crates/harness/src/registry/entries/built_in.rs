@@ -3,9 +3,9 @@
 use crate::registry::{Entry, KERNEL, RegistryError, SIMD, Settings, Shape, Traits, look};
 use accel::Builder;
 use baselines::{Brute, MinMax, Sphere};
-use bmssm::dense::BmssmDense;
-use bmssm::fast::Bmssm;
-use ssm::{Ssm, SsmList};
+use bmssm::suite::dense::BmssmDense;
+use bmssm::suite::fast::Bmssm;
+use ssm::suite::{Ssm, SsmList};
 
 /// A builder by its defaults and its own `set`.
 macro_rules! set {
@@ -63,7 +63,7 @@ pub const ENTRIES: &[Entry] = &[
         look: look("#38120a", "#98562a", Shape::Square),
         description: "the paper's bit maps as plain bit vectors",
         source: "Skala 1993, §2, §5, appendix",
-        settings: &bmssm::dense::Settings::NAMES,
+        settings: &bmssm::suite::dense::Settings::NAMES,
         traits: Traits { by_need: true, linear: true, ..Traits::BUILT_IN },
         variants: &[
             "resolution=1",
@@ -81,7 +81,7 @@ pub const ENTRIES: &[Entry] = &[
         look: look("#da670c", "#e65315", Shape::Circle),
         description: "bit maps over blocks of 64 objects: in image space for rasters, in space for lists",
         source: "after Skala 1993",
-        settings: &bmssm::fast::Settings::NAMES,
+        settings: &bmssm::suite::fast::Settings::NAMES,
         traits: Traits { by_need: true, any_kernel: true, ..Traits::BUILT_IN },
         variants: &[
             "stretch=256",
@@ -99,7 +99,7 @@ pub const ENTRIES: &[Entry] = &[
         look: look("#4c3806", "#e0cb61", Shape::Triangle),
         description: "uniform grid: a counter, a pointer and ids for each cell",
         source: "Skala 1993, §5",
-        settings: &ssm::Settings::NAMES,
+        settings: &ssm::suite::Settings::NAMES,
         variants: &["resolution=1", "resolution=4", "resolution=3x17x5", "density=40", "kernel=watertight"],
         make: set!(SsmList),
         ..BUILT_IN

@@ -1,0 +1,90 @@
+//! A structure for rays of any kind.
+
+use crate::{Camera, Image, Options};
+use accel::input::traceable;
+use accel::{Accel, BuildError, Footprint, Hit, Objects, Position, Ray, RaySet};
+use std::fmt;
+
+/// A scene that any ray can be traced through.
+///
+/// The mesh stays in the caller's buffers, which are borrowed. Of several hits at the same t the lowest object number wins. A ray
+/// that is none, because it isn't finite or has no direction ([`Ray::validate`]), hits nothing.
+pub struct Bmssm<'s>(Box<dyn Accel + 's>);
+
+impl<'s> Bmssm<'s> {
+    /// Builds for a mesh: positions as `[f32; 3]` or [`Vec3`](crate::Vec3), and three indices into them for each
+    /// triangle.
+    ///
+    /// # Errors
+    /// [`BuildError::Input`] for coordinates that aren't finite, indices out of range and meshes that reach too far,
+    /// [`BuildError::TooLarge`] where memory doesn't suffice.
+    pub fn build<P: Position>(positions: &'s [P], triangles: &'s [[u32; 3]]) -> Result<Self, BuildError> {
+        Options::default().build(positions, triangles)
+    }
+
+    /// Builds for objects of any kind.
+    ///
+    /// # Errors
+    /// [`BuildError::Input`] for boxes that are empty or not finite or reach too far, [`BuildError::TooLarge`] where
+    /// memory doesn't suffice.
+    pub fn build_objects<O: Objects>(objects: &'s O) -> Result<Self, BuildError> {
+        Options::default().build_objects(objects)
+    }
+
+    /// Builds for the rays of one image of a mesh and no others, in less time and memory.
+    ///
+    /// # Errors
+    /// Those of [`Bmssm::build`].
+    pub fn for_image<P: Position>(
+        camera: &Camera,
+        positions: &'s [P],
+        triangles: &'s [[u32; 3]],
+    ) -> Result<Image<'s>, BuildError> {
+        Options::default().for_image(camera, positions, triangles)
+    }
+
+    /// Settings other than the default.
+    pub fn options() -> Options {
+        Options::default()
+    }
+
+    pub(super) fn new(built: Box<dyn Accel + 's>) -> Self {
+        Self(built)
+    }
+
+    /// The nearest hit.
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        ray.validate().is_ok().then(|| self.0.closest(ray)).flatten()
+    }
+
+    /// Whether anything is hit.
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        ray.validate().is_ok() && self.0.occluded(ray)
+    }
+
+    /// The nearest hit of each ray. Faster than ray by ray; with the feature `parallel` on all threads of the
+    /// current rayon pool.
+    pub fn trace(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
+        let mut hits = vec![None; rays.len()];
+        self.0.trace(&RaySet::List(traceable(rays).into_owned()), &mut hits);
+        hits
+    }
+
+    /// Whether each ray hits anything, see [`Bmssm::trace`].
+    pub fn trace_occluded(&self, rays: &[Ray]) -> Vec<bool> {
+        let mut occluded = vec![false; rays.len()];
+        self.0.trace_occluded(&RaySet::List(traceable(rays).into_owned()), &mut occluded);
+        occluded
+    }
+
+    /// What the structure holds in memory, part by part, beside the caller's own buffers.
+    pub fn footprint(&self) -> Footprint {
+        self.0.footprint()
+    }
+}
+
+impl fmt::Debug for Bmssm<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Bmssm").field("footprint", &self.footprint()).finish()
+    }
+}
