@@ -40,7 +40,7 @@ pub fn run(places: &Places, ready: &Ready) -> ExitCode {
         }
         command
     };
-    let steps: [Step; 7] = [
+    let steps: [Step; 9] = [
         ("formatting", &|_| succeed(here("fmt").args(["--all", "--check"]))),
         ("structure", &|_| structure::examine(&places.root)?.verdict()),
         ("lints", &|_| {
@@ -56,6 +56,11 @@ pub fn run(places: &Places, ready: &Ready) -> ExitCode {
         ("the contract and the structures build alone", &|_| {
             succeed(here("check").arg("--all-targets").args(CORE.map(|p| format!("-p{p}"))))
         }),
+        ("the contract and the structures build without threads", &|_| {
+            let mut command = here("check");
+            succeed(command.arg("--no-default-features").args(CORE.map(|p| format!("-p{p}"))))
+        }),
+        ("packages", &|_| crate::package::run(places).map(|seen| print!("{seen}"))),
         ("tests", &|tally| tests(&mut workspace("test"), tally)),
         ("documentation", &|_| {
             let mut command = workspace("doc");

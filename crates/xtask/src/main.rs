@@ -6,6 +6,7 @@
 //! cargo xtask bench [ARGS]      set up, then the criterion benches
 //! cargo xtask test              set up, then every check of the workspace
 //! cargo xtask structure         which crates and modules import which, and that there is no cycle
+//! cargo xtask package           the crates meant for others, and a program outside of the checkout that uses them
 //! cargo xtask aarch64           the structures' tests with NEON, emulated if need be
 //! ```
 #![forbid(unsafe_code)]
@@ -18,6 +19,7 @@ mod embree;
 mod host;
 mod meshes;
 mod native;
+mod package;
 mod pip;
 mod places;
 mod setup;
@@ -37,6 +39,7 @@ usage: cargo xtask <command>
   bench [ARGS]      set up, then `cargo bench --workspace ARGS`, built for this machine
   test              set up, then formatting, lints, tests, documentation
   structure         list which crates and modules import which; fail on a cycle
+  package           package the crates meant for others; build and run a program that has only those
   aarch64           the tests of the contract and the structures for aarch64, emulated on other processors
 
 Exit codes: 0 done, 1 a step failed, 2 bad usage.";
@@ -70,6 +73,13 @@ fn main() -> ExitCode {
             Err(why) => fail(&format!("set-up failed: {why}")),
         },
         ("structure", true) => structure(&places),
+        ("package", true) => match package::run(&places) {
+            Ok(seen) => {
+                print!("{seen}");
+                ExitCode::SUCCESS
+            }
+            Err(why) => fail(&why),
+        },
         ("aarch64", true) => aarch64::run(&places),
         ("help" | "--help" | "-h", _) => {
             println!("{USAGE}");
