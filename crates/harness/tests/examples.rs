@@ -2,12 +2,10 @@
 
 /// Includes each example and runs its `main` in a test of its name.
 macro_rules! examples {
-    ($($(#[$when:meta])* $name:ident in $path:literal;)*) => {$(
-        $(#[$when])*
+    ($($name:ident in $path:literal;)*) => {$(
         #[path = $path]
         mod $name;
 
-        $(#[$when])*
         #[test]
         fn $name() {
             $name::main().unwrap_or_else(|error| panic!("{error}"));
@@ -18,13 +16,6 @@ macro_rules! examples {
 }
 
 examples! {
-    bmssm in "../examples/bmssm.rs";
-    bmssm_dense in "../examples/bmssm_dense.rs";
-    #[cfg(feature = "embree")]
-    embree in "../examples/embree.rs";
-    minmax in "../examples/minmax.rs";
-    obvhs in "../examples/obvhs.rs";
     own_structure in "../examples/own_structure.rs";
-    ssm in "../examples/ssm.rs";
-    ssm_list in "../examples/ssm_list.rs";
+    structures in "../examples/structures.rs";
 }
