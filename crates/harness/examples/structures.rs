@@ -9,8 +9,8 @@ use std::error::Error;
 fn builders() -> Vec<Box<dyn Builder>> {
     vec![
         Box::new(baselines::MinMax { kernel: primitives::KernelId::MollerTrumbore }),
-        Box::new(bmssm::suite::BmssmDense::default()),
-        Box::new(bmssm::suite::Bmssm::default()),
+        Box::new(bmssm::suite::dense::BmssmDense::default()),
+        Box::new(bmssm::suite::fast::Bmssm::default()),
         Box::new(ssm::suite::SsmList::default()),
         Box::new(ssm::suite::Ssm::default()),
         Box::new(adapter_obvhs::ObvhsBuilder::new(adapter_obvhs::Variant::CwBvh)),
