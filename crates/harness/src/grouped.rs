@@ -28,7 +28,7 @@ impl Measure {
             Self::Trace => cell.ns(),
             Self::Build => cell.build(),
             Self::Structure => bytes.map(|b| b.structure as f64),
-            Self::Bytes => bytes.map(|b| (b.structure + b.geometry_copy) as f64),
+            Self::Bytes => bytes.map(|b| b.structure.saturating_add(b.geometry_copy) as f64),
         };
         figure.filter(|value| *value > 0.0)
     }

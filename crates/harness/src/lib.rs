@@ -12,6 +12,7 @@ pub mod auto;
 pub mod changes;
 pub mod check;
 pub mod clock;
+pub mod front;
 pub mod grouped;
 pub mod guard;
 pub mod machine;

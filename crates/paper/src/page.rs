@@ -2,7 +2,8 @@
 
 use super::memory::{Crossing, Point};
 use super::{Paper, Table};
-use harness::units::{bytes, count};
+use harness::units;
+use report::table::{Table as Columns, Value, figure};
 use std::fmt::Write;
 
 /// The page of a record. Every number on it stands in the record.
@@ -45,39 +46,38 @@ fn cost_model(out: &mut String, paper: &Paper) -> Written {
          {:.3} ns an object. Estimates by our costs are in ns.\n",
         model.cycle_ns, model.bmssm_ns
     )?;
-    writeln!(
-        out,
-        "| time | := < ± × ÷ | printed | by the printed costs | ours by latency | ours by throughput | measured |"
-    )?;
-    writeln!(out, "|---|---|---|---|---|---|---|")?;
+    let mut times = Columns::of_figures(
+        "time",
+        [
+            ":= < ± × ÷",
+            "printed",
+            "by the printed costs",
+            "ours by latency",
+            "ours by throughput",
+            "measured",
+        ],
+    );
     for e in &model.estimates {
-        let operations = e.operations.map(number).join(" ");
-        let measured = e.measured_ns.map_or("–".into(), |ns| format!("{ns:.3}"));
-        writeln!(
-            out,
-            "| {} | {operations} | {} | {:.1} | {:.3} | {:.3} | {measured} |",
-            e.name, e.printed, e.by_printed_costs, e.by_our_latency_ns, e.by_our_throughput_ns
-        )?;
+        let operations = e.operations.map(|n| units::significant(n, DIGITS)).join(" ");
+        let ns = [e.by_printed_costs, e.by_our_latency_ns, e.by_our_throughput_ns].map(number);
+        let cells = [Value::text(&e.name), operations.into(), number(e.printed)];
+        let measured = Value::figure(e.measured_ns, |ns| units::significant(ns, DIGITS));
+        times.push(cells.into_iter().chain(ns).chain([measured]));
     }
-    writeln!(
-        out,
-        "\n| ν where every object is a candidate | printed | by the printed times | predicted by latency | predicted by throughput | measured |\n|---|---|---|---|---|---|"
-    )?;
+    writeln!(out, "{}", times.markdown())?;
+    let mut ratios = Columns::of_figures(
+        "ν where every object is a candidate",
+        ["printed", "by the printed times", "predicted by latency", "predicted by throughput", "measured"],
+    );
     for r in &model.ratios {
-        writeln!(
-            out,
-            "| {} | {} | {:.2} | {:.2} | {:.2} | {:.2} |",
-            r.name,
-            r.printed,
-            r.by_printed_times,
-            r.predicted_by_latency,
-            r.predicted_by_throughput,
-            r.measured
-        )?;
+        let all =
+            [r.printed, r.by_printed_times, r.predicted_by_latency, r.predicted_by_throughput, r.measured];
+        ratios.push([Value::text(&r.name)].into_iter().chain(all.map(number)));
     }
+    writeln!(out, "{}", ratios.markdown())?;
     writeln!(
         out,
-        "\nA model that adds up operations fits a machine that does one after the other. Today's runs several at once and \
+        "A model that adds up operations fits a machine that does one after the other. Today's runs several at once and \
          guesses branches, so that the measured ratio lies where neither sum puts it; and where few objects are \
          candidates, BMSSM passes over 32 or 64 of them with one operation, which is what Tables 2–5 show.\n"
     )
@@ -109,34 +109,30 @@ fn write_table(out: &mut String, key: &str, table: &Table) -> Written {
     for remark in &table.remarks {
         writeln!(out, "- {remark}")?;
     }
-    let printed: Vec<Vec<String>> =
-        table.printed.iter().map(|row| row.iter().map(|v| v.map_or("–".into(), number)).collect()).collect();
-    let ours = texts(&table.ours);
     if table.printed.iter().flatten().any(Option::is_some) {
-        let pairs = |row: usize| -> Vec<String> {
-            printed[row].iter().zip(&ours[row]).map(|(p, o)| format!("{p} / **{o}**")).collect()
+        let pair = |row: usize, col: usize| {
+            let printed =
+                table.printed[row][col].map_or_else(|| "–".into(), |v| units::significant(v, DIGITS));
+            let ours = units::significant(table.ours[row][col], DIGITS);
+            Value::text(format!("{printed} / ")).and_strong(ours)
         };
-        body(out, table, "printed / **ours**", &(0..table.rows.len()).map(pairs).collect::<Vec<_>>())?;
+        body(out, table, "printed / **ours**", pair)?;
     } else {
-        body(out, table, "ours", &ours)?;
+        body(out, table, "ours", |row, col| number(table.ours[row][col]))?;
     }
     for (name, values) in &table.variants {
-        body(out, table, name, &texts(values))?;
+        body(out, table, name, |row, col| number(values[row][col]))?;
     }
     Ok(())
 }
 
-fn texts(values: &[Vec<f64>]) -> Vec<Vec<String>> {
-    values.iter().map(|row| row.iter().map(|v| number(*v)).collect()).collect()
-}
-
-fn body(out: &mut String, table: &Table, name: &str, values: &[Vec<String>]) -> Written {
-    writeln!(out, "\n{name}:\n\n| {} \\ {} | {} |", table.row_name, table.col_name, table.cols.join(" | "))?;
-    writeln!(out, "|---|{}", "---|".repeat(table.cols.len()))?;
-    for (row, values) in table.rows.iter().zip(values) {
-        writeln!(out, "| {row} | {} |", values.join(" | "))?;
+fn body(out: &mut String, table: &Table, name: &str, value: impl Fn(usize, usize) -> Value) -> Written {
+    let mut columns = Columns::of_figures(&format!("{} \\ {}", table.row_name, table.col_name), &table.cols);
+    for (row, row_name) in table.rows.iter().enumerate() {
+        let values = (0..table.cols.len()).map(|col| value(row, col));
+        columns.push([Value::text(row_name)].into_iter().chain(values));
     }
-    Ok(())
+    writeln!(out, "\n{name}:\n\n{}", columns.markdown().trim_end())
 }
 
 fn memory(out: &mut String, paper: &Paper) -> Written {
@@ -155,51 +151,71 @@ fn memory(out: &mut String, paper: &Paper) -> Written {
             _ => "q → 0: (32/3)·N²/p",
         };
         writeln!(out, "### {case}: {law}\n")?;
-        writeln!(
-            out,
-            "| p | N | r | q | p(r+1)³/N³ | pr³/N³ | M_SSM | 4-byte | as built | M_BMSSM | as built | ν_mem | 4-byte | as built | special case |"
-        )?;
-        writeln!(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")?;
-        for point in paper.memory.points.iter().filter(|point| point.case == case) {
-            writeln!(out, "{}", memory_row(point))?;
-        }
-        writeln!(out)?;
+        let mut sizes = Columns::new(
+            [
+                "p",
+                "N",
+                "r",
+                "q",
+                "p(r+1)³/N³",
+                "pr³/N³",
+                "M_SSM",
+                "4-byte",
+                "as built",
+                "M_BMSSM",
+                "as built",
+                "ν_mem",
+                "4-byte",
+                "as built",
+                "special case",
+            ]
+            .map(figure),
+        );
+        paper.memory.points.iter().filter(|point| point.case == case).for_each(|point| {
+            sizes.push(memory_row(point));
+        });
+        writeln!(out, "{}", sizes.markdown())?;
     }
-    writeln!(
-        out,
-        "### The N at which ν_mem is 1\n\n| case | p | formula | 4-byte ids | as built |\n|---|---|---|---|---|"
-    )?;
+    let mut crossings = Columns::of_figures("case", ["p", "formula", "4-byte ids", "as built"]);
     for Crossing { case, p, formula, formula_4, built } in &paper.memory.crossings {
-        let built = built.map_or("outside of the N built".into(), |n| format!("{n:.1}"));
-        writeln!(out, "| {case} | {} | {formula:.1} | {formula_4:.1} | {built} |", count((*p).into()))?;
+        let built = built.map_or_else(|| Value::text("outside of the N built"), number);
+        crossings.push([
+            Value::text(case),
+            Value::count(u64::from(*p)),
+            number(*formula),
+            number(*formula_4),
+            built,
+        ]);
     }
+    writeln!(out, "### The N at which ν_mem is 1\n\n{}", crossings.markdown())?;
     writeln!(
         out,
-        "\nWith many small objects maps win only at high N: a million of them want N above about 250, or 177 with honest ids.\n"
+        "With many small objects maps win only at high N: a million of them want N above about 250, or 177 with honest ids.\n"
     )
 }
 
-fn memory_row(point: &Point) -> String {
-    let size = |v: f64| bytes(v as u64);
-    let model = if point.built { "" } else { " *model*" };
-    format!(
-        "| {} | {} | {} | {} | {} | {} | {} | {} | {}{model} | {} | {}{model} | {} | {} | {} | {} |",
-        count(point.p.into()),
-        point.n,
+fn memory_row(point: &Point) -> [Value; 15] {
+    let as_built = |v: f64| match bytes(v) {
+        value if point.built => value,
+        value => Value::text(format!("{} model", value.plain())),
+    };
+    [
+        Value::count(u64::from(point.p)),
+        Value::count(u64::from(point.n)),
         number(point.r),
         number(point.q),
         number(point.q_touched),
         number(point.q_formula),
-        size(point.ssm_formula),
-        size(point.ssm_formula_4),
-        size(point.ssm_built),
-        size(point.bmssm_formula),
-        size(point.bmssm_built),
+        bytes(point.ssm_formula),
+        bytes(point.ssm_formula_4),
+        as_built(point.ssm_built),
+        bytes(point.bmssm_formula),
+        as_built(point.bmssm_built),
         number(point.nu_formula),
         number(point.nu_formula_4),
         number(point.nu_built),
         number(point.nu_case),
-    )
+    ]
 }
 
 fn consistency(out: &mut String, paper: &Paper) -> Written {
@@ -210,32 +226,30 @@ fn consistency(out: &mut String, paper: &Paper) -> Written {
     writeln!(
         out,
         "`{}`, {} objects. A 0 in V (W) says that no row (column) plane meets the object's box: no ray can hit it. V and W \
-         prove objects lost; an object that they let pass may be hidden or missed all the same.\n\n\
-         | image | 0 in V | 0 in W | no ray can hit | hit first by some ray | visible at {}² and lost | first lost |\n|---|---|---|---|---|---|---|",
+         prove objects lost; an object that they let pass may be hidden or missed all the same.\n",
         shown.scene,
-        count(shown.objects as u64),
-        shown.resolutions.first().map_or(0, |r| r.pixels)
+        units::count(shown.objects as u64),
     )?;
+    let first = shown.resolutions.first().map_or(0, |r| r.pixels);
+    let lost = format!("visible at {first}² and lost");
+    let mut images = Columns::of_figures(
+        "image",
+        ["0 in V", "0 in W", "no ray can hit", "hit first by some ray", &lost, "first lost"],
+    );
     for r in &shown.resolutions {
         let first: Vec<String> = r.first_unseen.iter().map(ToString::to_string).collect();
-        writeln!(
-            out,
-            "| {0} × {0} | {1} | {2} | {3} | {4} | {5} | {6} … |",
-            r.pixels,
-            count(r.no_row as u64),
-            count(r.no_column as u64),
-            count(r.unseen as u64),
-            count(r.visible as u64),
-            count(r.visible_lost as u64),
-            first.join(" ")
-        )?;
+        let counts = [r.no_row, r.no_column, r.unseen, r.visible, r.visible_lost];
+        let counts = counts.map(|n| Value::count(n as u64));
+        let image = Value::text(format!("{0} × {0}", r.pixels));
+        images.push([image].into_iter().chain(counts).chain([format!("{} …", first.join(" ")).into()]));
     }
+    writeln!(out, "{}", images.markdown())?;
     writeln!(
         out,
-        "\nIn red the objects that no ray of the image of {0} × {0} can hit ({1} pixels of the picture):\n\n\
+        "In red the objects that no ray of the image of {0} × {0} can hit ({1} pixels of the picture):\n\n\
          ![](consistency.png)\n\n![](consistency.svg)\n",
         shown.marked_at,
-        count(shown.marked_pixels as u64)
+        units::count(shown.marked_pixels as u64)
     )
 }
 
@@ -248,48 +262,40 @@ fn split(out: &mut String, paper: &Paper) -> Written {
         super::facets::IMAGE,
         super::facets::RESOLUTION
     )?;
-    writeln!(
-        out,
-        "| longest edge | objects | R & S: candidates | ns a ray | bytes | R & S & T: candidates | ns a ray | bytes |\n|---|---|---|---|---|---|---|---|"
-    )?;
+    let mut facets = Columns::of_figures(
+        "longest edge",
+        ["objects", "R & S: candidates", "ns a ray", "bytes", "R & S & T: candidates", "ns a ray", "bytes"],
+    );
     for f in &paper.split {
-        writeln!(
-            out,
-            "| {} | {} | {} | {} | {} | {} | {} | {} |",
-            f.longest.map_or("as it is".into(), number),
-            count(f.objects as u64),
+        facets.push([
+            f.longest.map_or_else(|| Value::text("as it is"), number),
+            Value::count(f.objects as u64),
             number(f.primary_candidates),
             number(f.primary_ns),
-            bytes(f.primary_bytes as u64),
+            bytes(f.primary_bytes as f64),
             number(f.general_candidates),
             number(f.general_ns),
-            bytes(f.general_bytes as u64)
-        )?;
+            bytes(f.general_bytes as f64),
+        ]);
     }
-    Ok(())
+    writeln!(out, "{}", facets.markdown().trim_end())
 }
 
 fn slips(out: &mut String, paper: &Paper) -> Written {
-    writeln!(
-        out,
-        "\n## Where the print is wrong [`slips`]\n\n| place | printed | arithmetic | reading |\n|---|---|---|---|"
-    )?;
+    let mut slips = Columns::new(["place", "printed", "arithmetic", "reading"]);
     for s in &paper.slips {
-        writeln!(out, "| {} | {} | {} | {} |", s.place, s.printed, s.arithmetic, s.reading)?;
+        slips.push([&s.place, &s.printed, &s.arithmetic, &s.reading]);
     }
-    Ok(())
+    writeln!(out, "\n## Where the print is wrong [`slips`]\n\n{}", slips.markdown().trim_end())
 }
 
-/// Four digits that count.
-fn number(value: f64) -> String {
-    let size = value.abs();
-    let text = match size {
-        0.0 => return "0".into(),
-        s if !(1e-4..1e6).contains(&s) => return format!("{value:.2e}"),
-        s if s >= 1000.0 => format!("{value:.0}"),
-        s if s >= 100.0 => format!("{value:.1}"),
-        s if s >= 1.0 => format!("{value:.2}"),
-        _ => format!("{value:.4}"),
-    };
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+/// Digits that count in a table.
+const DIGITS: usize = 4;
+
+fn number(value: f64) -> Value {
+    Value::figure(Some(value), |v| units::significant(v, DIGITS))
+}
+
+fn bytes(value: f64) -> Value {
+    Value::figure(Some(value), |v| units::bytes(v as u64))
 }

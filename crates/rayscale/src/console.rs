@@ -5,6 +5,7 @@ use accel::Scene;
 use anstream::stream::IsTerminal;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use report::table::printable;
 use scenes::{SceneError, SceneSpec};
 use serde::Serialize;
 use std::fmt::Display;
@@ -97,13 +98,14 @@ impl Console {
         self.print(text)
     }
 
-    /// Prints text to standard output, with a newline.
+    /// Prints text to standard output, with a newline. Names in records and files are other people's: what a terminal
+    /// takes for commands is made visible, as JSON would write it.
     ///
     /// # Errors
     /// [`Error::Io`] when standard output takes no more.
     pub fn print(&self, text: impl Display) -> Result<(), Error> {
         let mut out = anstream::stdout().lock();
-        writeln!(out, "{text}")
+        writeln!(out, "{}", printable(&text.to_string()))
             .and_then(|()| out.flush())
             .map_err(|error| Error::io("standard output", error))
     }
@@ -112,7 +114,7 @@ impl Console {
     pub fn note(&self, text: impl Display) {
         if !self.global.quiet {
             // Nobody is left to be told that standard error is closed.
-            let _ = writeln!(anstream::stderr(), "{text}");
+            let _ = writeln!(anstream::stderr(), "{}", printable(&text.to_string()));
         }
     }
 
@@ -131,10 +133,12 @@ impl Console {
         let todo = error.todo();
         let mut out = anstream::stderr();
         let written = if self.global.json {
-            writeln!(out, "{}", serde_json::json!({ "error": error.to_string(), "todo": todo }))
+            let json = serde_json::json!({ "error": error.to_string(), "todo": todo }).to_string();
+            writeln!(out, "{}", printable(&json))
         } else {
-            writeln!(out, "{RED}error:{PLAIN} {error}").and_then(|()| match todo {
-                Some(todo) => writeln!(out, "{CYAN}to do:{PLAIN} {todo}"),
+            let text = error.to_string();
+            writeln!(out, "{RED}error:{PLAIN} {}", printable(&text)).and_then(|()| match todo {
+                Some(todo) => writeln!(out, "{CYAN}to do:{PLAIN} {}", printable(&todo)),
                 None => Ok(()),
             })
         };
@@ -151,7 +155,8 @@ impl Console {
         let style = ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} {eta}")
             .map(|style| style.progress_chars("=> "))
             .unwrap_or_else(|_| ProgressStyle::default_bar());
-        let bar = ProgressBar::new(len).with_style(style).with_message(what.to_string());
+        let bar =
+            ProgressBar::new(len).with_style(style).with_message(printable(&what.to_string()).into_owned());
         bar.enable_steady_tick(Duration::from_millis(200));
         bar
     }

@@ -1,12 +1,17 @@
-//! Reports, made from a record alone: tables, charts, pages. [`picture`] turns hits into pixels.
+//! Reports, made from a record alone.
+//!
+//! [`table`] and [`chart`] are the one table and the one chart of the suite; [`markdown`], [`mod@html`] and [`trade`] fill
+//! them from what was measured. [`picture`] turns hits into pixels.
 
 #![forbid(unsafe_code)]
 
-mod csv;
+mod aggregate;
+pub mod cells;
+pub mod chart;
+mod charts;
 pub mod html;
 mod markdown;
 mod memory;
-pub mod palette;
 pub mod picture;
 mod splice;
 pub mod table;
@@ -14,6 +19,5 @@ pub mod table;
 mod tests;
 pub mod trade;
 
-pub use csv::write_csv;
 pub use markdown::markdown;
 pub use splice::{BEGIN, END, SpliceError, splice, summary};

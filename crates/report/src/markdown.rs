@@ -1,9 +1,10 @@
 //! The report as Markdown.
 
-use super::memory;
-use super::table::{Table, figures};
-use harness::grouped::{Measure, rank};
-use harness::record::{Cell, Record};
+use crate::cells::figures;
+use crate::memory;
+use crate::table::{Table, Value, code, escape, figure};
+use harness::grouped::{Measure, Ranking, rank};
+use harness::record::{Cell, Errors, Record};
 use harness::units;
 use std::fmt::Write;
 
@@ -50,25 +51,25 @@ fn run(out: &mut String, record: &Record) {
     let s = &record.suite;
     let mut table = Table::new(["", ""]);
     let mode = |on: bool| if on { "on" } else { "off" };
+    table.push(["command".into(), Value::code(&record.command)]);
     for (name, value) in [
-        ("command", format!("`{}`", record.command)),
         ("suite", format!("rayscale {} {} ({}, {})", s.version, s.git, s.profile, s.rustc)),
         ("compiler flags", if s.rustflags.is_empty() { "none".to_owned() } else { s.rustflags.clone() }),
         ("processor", format!("{}, {} threads, {}", m.cpu, m.cores, m.isa)),
         ("system", format!("{}, {} of memory", m.os, units::bytes(m.memory_bytes))),
         ("denormals", format!("FTZ {}, DAZ {}", mode(m.flush_to_zero), mode(m.denormals_are_zero))),
     ] {
-        table.rows.push(vec![name.to_owned(), value]);
+        table.push([name, &value]);
     }
     let _ = writeln!(out, "{}", table.markdown());
     let mut table = Table::new(["structure", "version", "settings", "what it is"]);
     for s in &record.structures {
-        table.rows.push(vec![s.id.clone(), s.version.clone(), s.settings.clone(), s.description.clone()]);
+        table.push([&s.id, &s.version, &s.settings, &s.description]);
     }
     let _ = writeln!(out, "{}", table.markdown());
-    let mut table = Table::new(["scene", "objects", "kind", "source"]);
+    let mut table = Table::new(["scene".into(), figure("objects"), "kind".into(), "source".into()]);
     for s in &record.scenes {
-        table.rows.push(vec![s.id.clone(), units::count(s.objects), s.kind.clone(), s.source.clone()]);
+        table.push([(&s.id).into(), Value::count(s.objects), (&s.kind).into(), (&s.source).into()]);
     }
     let _ = writeln!(out, "{}", table.markdown());
 }
@@ -92,20 +93,24 @@ pub fn ranked(record: &Record, raster: bool) -> Option<(String, Table)> {
     let by = |measure| rank(cells(), to, measure).ok();
     let trace = by(Measure::Trace)?;
     let (build, structure, all) = (by(Measure::Build), by(Measure::Structure), by(Measure::Bytes));
-    let mut table = Table::new(["structure", "time per ray", "build time", "structure bytes", "all bytes"]);
+    let columns = ["time per ray", "build time", "structure bytes", "all bytes"];
+    let mut table = Table::of_figures("structure", columns);
     for place in &trace.places {
-        let other = |ranking: &Option<harness::grouped::Ranking>| {
-            let place =
-                ranking.as_ref().and_then(|r| r.places.iter().find(|p| p.structure == place.structure));
-            place.map_or_else(|| "–".to_owned(), |place| format!("{:.3}", place.ratio))
+        let other = |ranking: &Option<Ranking>| {
+            let mut places = ranking.iter().flat_map(|r| &r.places);
+            let place = places.find(|p| p.structure == place.structure);
+            Value::figure(place.map(|place| place.ratio), units::ratio)
         };
-        let mut row = vec![place.structure.clone(), format!("{:.3}", place.ratio)];
-        row.extend([&build, &structure, &all].map(other));
-        table.rows.push(row);
+        let time = Value::figure(Some(place.ratio), units::ratio);
+        table.push(
+            [Value::text(&place.structure), time].into_iter().chain([&build, &structure, &all].map(other)),
+        );
     }
     let line = format!(
-        "geometric means of ratios to `{to}` over the {} cells that all share ({} left out).",
-        trace.shared, trace.left_out
+        "geometric means of ratios to {} over the {} cells that all share ({} left out).",
+        code(to),
+        trace.shared,
+        trace.left_out
     );
     Some((line, table))
 }
@@ -133,43 +138,35 @@ fn once(cells: &[Cell]) -> Vec<Cell> {
 }
 
 fn checks(record: &Record) -> Table {
-    let head = [
-        "structure",
-        "rays",
-        "differences",
-        "judged exactly",
-        "missed",
-        "false",
-        "wrong object",
-        "t ulp (max)",
-    ];
-    let mut table = Table::new(head);
+    let columns = ["rays", "differences", "judged exactly", "missed", "false", "wrong object", "t ulp (max)"];
+    let mut table = Table::of_figures("structure", columns);
     for structure in &record.structures {
-        let checks =
-            record.cells.iter().filter(|c| c.structure == structure.id).filter_map(|c| c.check.as_ref());
-        let (mut rays, mut differences) = (0, 0);
-        let mut sum: Option<harness::record::Errors> = None;
-        for check in checks {
-            rays += check.rays_checked;
-            differences += check.differences;
+        let cells = record.cells.iter().filter(|c| c.structure == structure.id);
+        let (mut rays, mut differences) = (0u64, 0u64);
+        let mut sum: Option<Errors> = None;
+        for check in cells.filter_map(|c| c.check.as_ref()) {
+            rays = rays.saturating_add(check.rays_checked);
+            differences = differences.saturating_add(check.differences);
             if let Some(e) = &check.errors {
                 let sum = sum.get_or_insert_default();
-                sum.rays_exact += e.rays_exact;
-                sum.missed += e.missed;
-                sum.false_hits += e.false_hits;
-                sum.wrong_object += e.wrong_object;
+                sum.rays_exact = sum.rays_exact.saturating_add(e.rays_exact);
+                sum.missed = sum.missed.saturating_add(e.missed);
+                sum.false_hits = sum.false_hits.saturating_add(e.false_hits);
+                sum.wrong_object = sum.wrong_object.saturating_add(e.wrong_object);
                 sum.t_ulp_max = sum.t_ulp_max.max(e.t_ulp_max);
             }
         }
-        let mut row = vec![structure.id.clone(), units::count(rays), units::count(differences)];
-        match sum {
-            None => row.extend(["–"; 5].map(str::to_owned)),
-            Some(e) => {
-                row.extend([e.rays_exact, e.missed, e.false_hits, e.wrong_object].map(units::count));
-                row.push(format!("{:.1}", e.t_ulp_max));
-            }
-        }
-        table.rows.push(row);
+        let count = |of: fn(Errors) -> u64| Value::count(sum.map(of));
+        table.push([
+            Value::text(&structure.id),
+            Value::count(rays),
+            Value::count(differences),
+            count(|e| e.rays_exact),
+            count(|e| e.missed),
+            count(|e| e.false_hits),
+            count(|e| e.wrong_object),
+            Value::figure(sum.map(|e| e.t_ulp_max), units::figure),
+        ]);
     }
     table
 }
@@ -181,13 +178,14 @@ fn left_out(out: &mut String, record: &Record) {
     }
     out.push_str("## Failed and left out\n\n");
     for skipped in &record.skipped {
-        let _ = writeln!(out, "- `{}` was left out: {}", skipped.id, skipped.reason);
+        let _ = writeln!(out, "- {} was left out: {}", code(&skipped.id), escape(&skipped.reason));
     }
     let mut said: Vec<(&str, &str, String)> = Vec::new();
     for cell in failed {
         let error = cell.outcome.reason().unwrap_or_default().to_owned();
         if !said.contains(&(&cell.scene, &cell.structure, error.clone())) {
-            let _ = writeln!(out, "- `{}` on {} {}: {error}", cell.structure, cell.scene, cell.rays);
+            let [scene, rays, reason] = [&cell.scene, &cell.rays, &error].map(|text| escape(text));
+            let _ = writeln!(out, "- {} on {scene} {rays}: {reason}", code(&cell.structure));
             said.push((&cell.scene, &cell.structure, error));
         }
     }

@@ -11,6 +11,14 @@ pub enum Shape {
     Triangle,
     /// ◆
     Diamond,
+    /// ★
+    Star,
+    /// ✚
+    Plus,
+    /// ▬
+    Bar,
+    /// ✖
+    Cross,
 }
 
 /// How a structure looks: one colour for each theme, and one shape.

@@ -1,6 +1,7 @@
 //! Rows of the trade: time, memory and errors side by side.
 
 use super::Accuracy;
+use crate::front::front;
 use crate::record::{Intersector, Outcome};
 use serde::Serialize;
 
@@ -38,11 +39,11 @@ impl Row {
 
 /// Marks the Pareto front of the rows of one scene.
 pub fn mark_front(rows: &mut [Row]) {
-    let points: Vec<_> = rows.iter().map(Row::point).collect();
-    for (row, point) in rows.iter_mut().zip(&points) {
-        row.front = point.is_some_and(|(ns, errors)| {
-            !points.iter().flatten().any(|(n, e)| *n <= ns && *e <= errors && (*n < ns || *e < errors))
-        });
+    let (known, points): (Vec<usize>, Vec<_>) =
+        rows.iter().enumerate().filter_map(|(i, row)| Some((i, row.point()?))).unzip();
+    rows.iter_mut().for_each(|row| row.front = false);
+    for i in front(&points) {
+        rows[known[i]].front = true;
     }
 }
 

@@ -12,7 +12,7 @@ use harness::sweeps::leaks::{self, LeakTally};
 use harness::sweeps::oracle::{self, OraclePlan, OracleTally};
 use harness::units;
 use primitives::KernelId;
-use report::table::Table;
+use report::table::{Column, Table, Value, figure};
 use scenes::rays::RaysId;
 use serde::Serialize;
 
@@ -161,9 +161,9 @@ fn run(
 }
 
 fn text(tally: &Tally) -> String {
-    let mut table = Table::new(["structure", "rays", "differences"]);
+    let mut table = Table::of_figures("structure", ["rays", "differences"]);
     for row in &tally.structures {
-        table.rows.push(vec![row.structure.clone(), units::count(row.rays), units::count(row.differences)]);
+        table.push([Value::text(&row.structure), Value::count(row.rays), Value::count(row.differences)]);
     }
     let mut text = table.text();
     for finding in &tally.findings {
@@ -173,14 +173,12 @@ fn text(tally: &Tally) -> String {
 }
 
 fn oracle_text(tally: &OracleTally) -> String {
-    let mut table =
-        Table::new(["structure", "rays", "missed", "false", "wrong object", "t off by > 1 ulp", "t ulp max"]);
+    let columns = ["rays", "missed", "false", "wrong object", "t off by > 1 ulp", "t ulp max"];
+    let mut table = Table::of_figures("structure", columns);
     for row in &tally.structures {
-        let mut cells = vec![row.structure.clone()];
         let counts = [tally.rays, row.missed, row.false_hits, row.wrong_object, row.wrong_t];
-        cells.extend(counts.map(units::count));
-        cells.push(format!("{:.3}", row.t_ulp_max));
-        table.rows.push(cells);
+        let most = Value::figure(Some(row.t_ulp_max), units::ratio);
+        table.push([Value::text(&row.structure)].into_iter().chain(counts.map(Value::count)).chain([most]));
     }
     let (scenes, aimed, left) = (tally.scenes, units::count(tally.aimed), units::count(tally.left_out));
     let mut text = table.text();
@@ -194,11 +192,12 @@ fn oracle_text(tally: &OracleTally) -> String {
 }
 
 fn leaks_text(tally: &LeakTally) -> String {
-    let mut table = Table::new(["mesh", "scale", "structure", "rays", "at faces", "at edges", "at corners"]);
+    let texts = ["mesh", "scale", "structure"].map(Column::from);
+    let figures = ["rays", "at faces", "at edges", "at corners"].map(figure);
+    let mut table = Table::new(texts.into_iter().chain(figures));
     let mut add = |mesh: &str, scale: String, structure: &str, rays: u64, leaks: [u64; 3]| {
-        let mut cells = vec![mesh.to_owned(), scale, structure.to_owned(), units::count(rays)];
-        cells.extend(leaks.map(units::count));
-        table.rows.push(cells);
+        let names = [mesh.into(), scale.into(), structure.into()];
+        table.push(names.into_iter().chain([Value::count(rays)]).chain(leaks.map(Value::count)));
     };
     for row in &tally.rows {
         add(&row.mesh, row.scale.to_string(), &row.structure, row.rays, row.leaks);

@@ -7,7 +7,7 @@ use crate::verb::{Outcome, Verb};
 use clap::Args;
 use harness::grouped::Measure;
 use harness::record;
-use report::table;
+use report::cells;
 use std::path::PathBuf;
 
 /// Show a record's figures side by side
@@ -35,7 +35,7 @@ impl Verb for Cmp {
                 "leave out a filter",
             ));
         }
-        console.result(&record.cells, table::figures(&record.cells, self.measure).text())?;
+        console.result(&record.cells, cells::figures(&record.cells, self.measure).text())?;
         Ok(Outcome::Done)
     }
 }

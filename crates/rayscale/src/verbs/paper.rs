@@ -59,9 +59,7 @@ impl Verb for PaperVerb {
             ),
             ("paper.md", page::markdown(&paper).into_bytes()),
         ];
-        for (name, svg) in plots::all(&paper).map_err(|reason| place(io::Error::other(reason)))? {
-            files.push((name, svg.into_bytes()));
-        }
+        files.extend(plots::all(&paper).into_iter().map(|(name, svg)| (name, svg.into_bytes())));
         if let Some(picture) = picture {
             let mut png = io::Cursor::new(Vec::new());
             picture.write_to(&mut png, image::ImageFormat::Png).map_err(io::Error::other).map_err(place)?;

@@ -7,6 +7,8 @@ use crate::verb::{Outcome, Verb};
 use clap::Args;
 use harness::grouped::{Measure, Ranking, rank};
 use harness::record;
+use harness::units::ratio;
+use report::table::in_columns;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -38,7 +40,7 @@ impl Verb for Rank {
         let cells = record.cells.iter().filter(|c| self.filter.takes_with(&self.to, c));
         let ranking = rank(cells, &self.to, self.measure)
             .map_err(|error| Error::usage(error.to_string(), "`rayscale cmp` shows what the record holds"))?;
-        console.result(&ranking, text(&ranking).trim_end())?;
+        console.result(&ranking, text(&ranking))?;
         Ok(Outcome::Done)
     }
 }
@@ -62,14 +64,14 @@ fn text(ranking: &Ranking) -> String {
             ranking.left_out
         );
     }
-    out.push('\n');
-    let width = ranking.places.iter().map(|p| p.structure.len()).max().unwrap_or(0);
-    for place in &ranking.places {
-        let _ = writeln!(
-            out,
-            "  {:width$}  {:8.3}   ({:.3} to {:.3})",
-            place.structure, place.ratio, place.least, place.most
-        );
-    }
+    let rows: Vec<Vec<String>> = ranking
+        .places
+        .iter()
+        .map(|place| {
+            let range = format!("({} to {})", ratio(place.least), ratio(place.most));
+            vec![format!("  {}", place.structure), ratio(place.ratio), range]
+        })
+        .collect();
+    let _ = write!(out, "\n{}", in_columns(&rows, &[false, true, false]));
     out
 }

@@ -17,6 +17,7 @@ use harness::registry::{self, Choice, StructureSpec, guarded_build};
 use harness::units;
 use harness::workload;
 use primitives::KernelId;
+use report::table::in_columns;
 use scenes::SceneSpec;
 use std::fmt::Write;
 use std::time::Duration;
@@ -187,22 +188,15 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
     let settings = |structure: &str| {
         record.structures.iter().find(|s| s.id == structure).map(|s| s.settings.clone()).unwrap_or_default()
     };
-    let width =
-        ranking.fitting.iter().chain(&ranking.others).map(|c| c.structure.len()).max().unwrap_or(9).max(9);
-    // Writing to a string does not fail.
-    let _ = writeln!(
-        text,
-        "    {:width$}  {:>9}  {:>9}  {:>10}  wrong answers",
-        "structure", "per ray", "build", "memory"
-    );
-    for (i, c) in ranking.fitting.iter().enumerate() {
-        let _ = writeln!(text, "{:>2}. {}", i + 1, row(c, width));
-    }
-    for c in &ranking.others {
-        let _ = writeln!(text, " –  {}  ({})", row(c, width), c.misfits.join("; "));
-    }
+    let head = ["    structure", "per ray", "build", "memory", "wrong answers"].map(str::to_owned);
+    let mut lines = vec![head.to_vec()];
+    lines.extend(ranking.fitting.iter().zip(1..).map(|(c, place)| row(&format!("{place:>2}."), c, "")));
+    lines.extend(ranking.others.iter().map(|c| row(" – ", c, &format!("  ({})", c.misfits.join("; ")))));
+    text.push_str(&in_columns(&lines, &[false, true, true, true, false]));
+    text.push('\n');
     for (structure, reason) in &ranking.unfit {
-        let _ = writeln!(text, " –  {structure:width$}  {reason}");
+        // Writing to a string does not fail.
+        let _ = writeln!(text, " –  {structure}  {reason}");
     }
     let sets = record.ray_sets().join(" and ");
     let _ = match (&ranking.fitting[..], &ranking.others[..]) {
@@ -244,7 +238,8 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
     text
 }
 
-fn row(c: &Candidate, width: usize) -> String {
+/// A candidate's line in columns, with its place before and a remark behind.
+fn row(place: &str, c: &Candidate, remark: &str) -> Vec<String> {
     let error = match c.error {
         Some(ErrorRate::NONE) => "none".to_owned(),
         Some(ErrorRate { share: 0.0, .. }) => "none seen".to_owned(),
@@ -252,8 +247,8 @@ fn row(c: &Candidate, width: usize) -> String {
         None => String::new(),
     };
     let (ns, build) = (units::time(c.ns), units::time(c.build_ns));
-    let bytes = units::bytes(c.bytes);
-    format!("{:width$}  {ns:>9}  {build:>9}  {bytes:>10}  {error}", c.structure).trim_end().to_owned()
+    let remark = if error.is_empty() { remark.trim_start() } else { remark };
+    vec![format!("{place} {}", c.structure), ns, build, units::bytes(c.bytes), format!("{error}{remark}")]
 }
 
 #[cfg(test)]

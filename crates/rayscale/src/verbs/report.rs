@@ -8,7 +8,7 @@ use clap::Args;
 use harness::output::write_whole;
 use harness::record::{self, Record};
 use report::html::{Pictures, html};
-use report::{markdown, splice, summary, write_csv};
+use report::{SpliceError, cells, markdown, splice, summary};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -55,8 +55,13 @@ impl Verb for Report {
 fn into_text(from: &Path, record: &Record, path: &Path) -> Result<(), Error> {
     let text = std::fs::read_to_string(path).map_err(|error| Error::io(path.display(), error))?;
     let command = format!("rayscale report {} --splice {}", from.display(), path.display());
-    let text = splice(&text, &summary(record, &command))
-        .map_err(|error| Error::usage(format!("{}: {error}", path.display()), "put the two lines in"))?;
+    let text = splice(&text, &summary(record, &command)).map_err(|error| {
+        let todo = match error {
+            SpliceError::Markers => "put the two lines in",
+            SpliceError::Inside => "take the lines out of the record",
+        };
+        Error::usage(format!("{}: {error}", path.display()), todo)
+    })?;
     file(path, |out| out.write_all(text.as_bytes()))
 }
 
@@ -65,11 +70,11 @@ pub fn write(record: &Record, pictures: &Pictures, folder: &Path) -> Result<Vec<
     if !folder.as_os_str().is_empty() {
         std::fs::create_dir_all(folder).map_err(|error| Error::io(folder.display(), error))?;
     }
-    let [report, page, cells] = ["report.md", "report.html", "cells.csv"].map(|name| folder.join(name));
+    let [report, page, table] = ["report.md", "report.html", "cells.csv"].map(|name| folder.join(name));
     file(&report, |out| out.write_all(markdown(record).as_bytes()))?;
     file(&page, |out| out.write_all(html(record, pictures).as_bytes()))?;
-    file(&cells, |out| write_csv(record, out))?;
-    Ok(vec![report, page, cells])
+    file(&table, |out| cells::all(record).csv(out))?;
+    Ok(vec![report, page, table])
 }
 
 fn file(

@@ -9,6 +9,7 @@ use clap::Args;
 use harness::measure::Options;
 use harness::output::write_whole;
 use harness::trade::{self, Plan, TIMED};
+use report::table::code;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -60,7 +61,8 @@ impl Verb for Trade {
         let table = report::trade::table(&trade.rows);
         let json = serde_json::to_string_pretty(&trade).map_err(io::Error::other);
         let json = json.map_err(|error| Error::io("trade.json", error))?;
-        let text = format!("# Accuracy and its cost\n\nMade by `{}`.\n\n{}", trade.command, table.markdown());
+        let text =
+            format!("# Accuracy and its cost\n\nMade by {}.\n\n{}", code(&trade.command), table.markdown());
         self.write("trade.json", &json)?;
         self.write("trade.md", &text)?;
         self.write("trade.svg", &report::trade::svg(&trade))?;

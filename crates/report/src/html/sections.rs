@@ -1,165 +1,134 @@
 //! The sections of a report.
 
 use super::Picture;
-use super::aggregate::{Overall, bytes_per_object, threads};
-use super::charts;
-use super::scale::{short, trimmed};
-use super::style::Styles;
-use super::svg::escape;
-use super::table::{Value, figure, table, text};
-use harness::record::{Cell, RaysId, Record};
-use harness::units;
-use std::fmt::Write;
+use crate::aggregate::{Overall, bytes_per_object, threads};
+use crate::chart::Styles;
+use crate::charts;
+use crate::table::{Interactive, Table, Value, figure};
+use harness::record::{Cell, RaysId, Record, SceneEntry};
+use harness::units::{self, short, times};
+use maud::{Markup, html};
 
 /// A chart with its heading and caption.
-fn chart(heading: &str, svg: &str, caption: &str) -> String {
-    let caption =
-        if caption.is_empty() { String::new() } else { format!("<figcaption>{caption}</figcaption>") };
-    format!("<figure><h3>{}</h3>{svg}{caption}</figure>\n", escape(heading))
+fn chart(heading: &str, svg: &Markup, caption: &str) -> Markup {
+    html! {
+        figure {
+            h3 { (heading) }
+            (svg)
+            @if !caption.is_empty() { figcaption { (caption) } }
+        }
+        "\n"
+    }
 }
 
-/// Memory against speed, for each ray set.
-pub fn memory_and_speed(overall: &[Overall], styles: &Styles) -> String {
-    let mut html = String::from("<div class=\"charts\">\n");
-    for rays in overall {
-        let Some((svg, words)) = charts::pareto(rays, styles) else { continue };
-        let mut caption = format!("Geometric means over {} scenes. {}", rays.scenes.len(), escape(&words));
+/// Charts beside each other; `None` if there is none.
+fn charts(all: Vec<Markup>) -> Option<Markup> {
+    (!all.is_empty()).then(|| html! { div.charts { "\n" @for chart in &all { (chart) } } "\n" })
+}
+
+/// Memory against speed: for images, for lists of rays, and for each set.
+pub fn memory_and_speed<'a, 'r: 'a>(
+    all: impl Iterator<Item = &'a Overall<'r>>,
+    styles: &Styles,
+) -> Option<Markup> {
+    let drawn = all.filter_map(|rays| {
+        let (svg, words) = charts::pareto(rays, styles)?;
+        let mut caption = format!("Geometric means over {}. {words}", rays.extent());
         if !rays.left_out.is_empty() {
-            let names: Vec<String> =
-                rays.left_out.iter().map(|(name, n)| format!("{} ({n})", escape(name))).collect();
-            let _ = write!(caption, " On too few scenes to compare: {}.", names.join(", "));
+            let names: Vec<String> = rays.left_out.iter().map(|(name, n)| format!("{name} ({n})")).collect();
+            caption += &format!(" On too few of them to compare: {}.", names.join(", "));
         }
-        html += &chart(rays.rays, &svg, caption.trim_end());
-    }
-    html + "</div>\n"
+        Some(chart(rays.rays, &svg, caption.trim_end()))
+    });
+    charts(drawn.collect())
 }
 
 /// How much longer than the fastest each structure takes, structures by ray sets.
-pub fn ranking(overall: &[Overall], styles: &Styles) -> String {
+pub fn ranking(overall: &[Overall], styles: &Styles) -> Markup {
     let mut names: Vec<&str> = Vec::new();
     for row in overall.iter().flat_map(|rays| &rays.rows) {
         if !names.contains(&row.structure) {
             names.push(row.structure);
         }
     }
-    let mut html = String::from(
-        "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">structure</th>",
-    );
-    for rays in overall {
-        let _ = write!(html, "<th scope=\"col\" class=\"n\">{}</th>", escape(rays.rays));
-    }
-    html.push_str("</tr></thead><tbody>\n");
+    let mut table = Table::of_figures("structure", overall.iter().map(|rays| rays.rays));
     for name in names {
-        let _ = write!(html, "<tr><td><i class=\"swatch {}\"></i>{}</td>", styles.class(name), escape(name));
-        for rays in overall {
+        let ratio = |rays: &Overall| {
             let row = rays.rows.iter().find(|row| row.structure == name);
-            let _ = match row {
-                Some(row) => {
-                    let ratio = row.ns / rays.rows[0].ns;
-                    let best = if ratio <= 1.0 { " best" } else { "" };
-                    write!(html, "<td class=\"n{best}\">{}×</td>", trimmed(ratio))
-                }
-                None => write!(html, "<td class=\"n\">–</td>"),
-            };
-        }
-        html.push_str("</tr>\n");
+            match row.map(|row| row.ns / rays.rows[0].ns) {
+                Some(ratio) => Value::figure(Some(ratio), times),
+                None => Value::text("–"),
+            }
+        };
+        table.push([structure(name, styles)].into_iter().chain(overall.iter().map(ratio)));
     }
-    html + "</tbody></table></div>\n"
+    table.html(|ratio| ratio <= 1.0)
+}
+
+fn structure(name: &str, styles: &Styles) -> Value {
+    Value::text(name).with_swatch(styles.class(name))
 }
 
 /// A scene's own part: picture, speeds, build against trace.
-pub fn scene(record: &Record, id: &str, pictures: &[Picture], styles: &Styles, is_open: bool) -> String {
-    let Some(entry) = record.scene(id) else { return String::new() };
+pub fn scene(
+    record: &Record,
+    scene: &SceneEntry,
+    pictures: &[Picture],
+    styles: &Styles,
+    is_open: bool,
+) -> Markup {
+    let id = &scene.id;
     let threads = threads(record);
-    let cells: Vec<&Cell> = record.cells.iter().filter(|c| c.scene == id && c.threads == threads).collect();
-    let name = escape(id);
-    let open = if is_open { " open" } else { "" };
-    let mut html = format!(
-        "<details id=\"scene-{name}\"{open}><summary>{name} – {} {}</summary>\n<p class=\"note\">{}</p>\n",
-        units::count(entry.objects),
-        escape(&entry.kind),
-        escape(&entry.source)
-    );
-    if !pictures.is_empty() {
-        html.push_str("<div class=\"pictures\">");
-        for picture in pictures {
-            html += &picture.html();
-        }
-        html.push_str("</div>\n");
-    }
-    html.push_str("<div class=\"charts\">\n");
-    for rays in record.ray_sets() {
-        let of_rays: Vec<&Cell> = cells.iter().copied().filter(|c| c.rays == rays).collect();
-        let label = format!("Time per ray of {rays} rays on {id}");
-        if let Some(svg) = charts::bars(&of_rays, &label, styles) {
-            html += &chart(&format!("{rays}: time per ray"), &svg, "");
-        }
-    }
-    for rays in GROWTH {
-        let of_rays: Vec<&Cell> = cells.iter().copied().filter(|c| c.ray_set() == Some(rays)).collect();
+    let cells: Vec<&Cell> = record.cells.iter().filter(|c| c.scene == *id && c.threads == threads).collect();
+    let of = |rays: &str| -> Vec<&Cell> { cells.iter().copied().filter(|c| c.rays == rays).collect() };
+    let speeds = record.ray_sets().into_iter().filter_map(|rays| {
+        let svg = charts::bars(&of(rays), &format!("Time per ray of {rays} rays on {id}"), styles)?;
+        Some(chart(&format!("{rays}: time per ray"), &svg, ""))
+    });
+    let growth = GROWTH.into_iter().filter_map(|rays| {
         let label = format!("Build and trace time over the number of {rays} rays on {id}");
-        if let Some((svg, words)) = charts::growth(&of_rays, &label, styles) {
-            html += &chart(&format!("{rays}: build against trace"), &svg, &escape(&words));
+        let (svg, words) = charts::growth(&of(rays.name()), &label, styles)?;
+        Some(chart(&format!("{rays}: build against trace"), &svg, &words))
+    });
+    html! {
+        details id={ "scene-" (id) } open[is_open] {
+            summary { (id) " – " (units::count(scene.objects)) " " (scene.kind) }
+            p.note { (scene.source) }
+            @if !pictures.is_empty() { div.pictures { @for picture in pictures { (picture) } } }
+            @if let Some(charts) = charts(speeds.chain(growth).collect()) { (charts) }
         }
+        "\n"
     }
-    html + "</div></details>\n"
 }
 
 /// One image and one list of rays are enough to see what building costs.
 const GROWTH: [RaysId; 2] = [RaysId::Perspective, RaysId::Diffuse];
 
 /// ν_mem over N, for each scene that has it.
-pub fn memory_ratios(record: &Record) -> Option<String> {
-    let mut html = String::from("<div class=\"charts\">\n");
-    let before = html.len();
-    for scene in &record.scenes {
+pub fn memory_ratios(record: &Record) -> Option<Markup> {
+    let drawn = record.scenes.iter().filter_map(|scene| {
         let rows: Vec<_> = record.memory.iter().filter(|row| row.scene == scene.id).collect();
-        let label = format!("Memory ratio over resolution on {}", scene.id);
-        if let Some(svg) = charts::memory_ratio(&rows, &label) {
-            html += &chart(&scene.id, &svg, &format!("{} objects", units::count(scene.objects)));
-        }
-    }
-    (html.len() > before).then(|| html + "</div>\n")
+        let svg = charts::memory_ratio(&rows, &format!("Memory ratio over resolution on {}", scene.id))?;
+        Some(chart(&scene.id, &svg, &format!("{} objects", units::count(scene.objects))))
+    });
+    charts(drawn.collect())
 }
 
-/// Wrong answers against speed, for each ray set; empty where nothing was decided.
-pub fn errors_and_speed(overall: &[Overall], styles: &Styles) -> String {
-    let all = overall.iter().filter_map(|rays| {
+/// Wrong answers against speed, for each ray set; `None` where nothing was decided.
+pub fn errors_and_speed(overall: &[Overall], styles: &Styles) -> Option<Markup> {
+    let drawn = overall.iter().filter_map(|rays| {
         let (svg, words) = charts::errors(rays, styles)?;
-        let caption = format!("Over {} scenes. {}", rays.scenes.len(), escape(&words));
-        Some(chart(rays.rays, &svg, caption.trim_end()))
+        Some(chart(rays.rays, &svg, format!("Over {}. {words}", rays.extent()).trim_end()))
     });
-    let all: String = all.collect();
-    if all.is_empty() { all } else { format!("<div class=\"charts\">\n{all}</div>\n") }
+    charts(drawn.collect())
 }
 
 /// Wrong answers beside speed, for every structure and ray set whose errors were decided.
-pub fn errors(record: &Record, styles: &Styles) -> Option<String> {
-    let rows: Vec<Vec<Value>> = record
-        .cells
-        .iter()
-        .filter_map(|cell| {
-            let check = cell.check.as_ref()?;
-            let errors = check.errors?;
-            let rate = |n: u64| Some(n as f64 / check.rays_checked.max(1) as f64 * 1e6);
-            Some(vec![
-                Value::structure(&cell.structure, &styles.class(&cell.structure)),
-                Value::text(&cell.scene),
-                Value::text(&cell.rays),
-                Value::figure(cell.ns(), units::time),
-                Value::figure(rate(errors.missed), trimmed),
-                Value::figure(rate(errors.false_hits), trimmed),
-                Value::figure(rate(errors.wrong_object), trimmed),
-                Value::figure(Some(errors.t_ulp_p99), trimmed),
-                Value::figure(Some(errors.t_ulp_max), short),
-                Value::figure(Some(check.rays_checked as f64), |n| units::count(n as u64)),
-            ])
-        })
-        .collect();
-    let columns = [
-        text("structure"),
-        text("scene"),
-        text("rays"),
+pub fn errors(record: &Record, styles: &Styles) -> Option<Markup> {
+    let mut table = Table::new([
+        "structure".into(),
+        "scene".into(),
+        "rays".into(),
         figure("time per ray"),
         figure("missed per million"),
         figure("false per million"),
@@ -167,17 +136,33 @@ pub fn errors(record: &Record, styles: &Styles) -> Option<String> {
         figure("t: 99 % within (ulp)"),
         figure("t: worst (ulp)"),
         figure("rays checked"),
-    ];
-    (!rows.is_empty()).then(|| table("errors-table", &columns, &[0, 1, 2], &rows))
+    ]);
+    for cell in &record.cells {
+        let Some((check, errors)) = cell.check.as_ref().and_then(|c| Some((c, c.errors?))) else { continue };
+        let rate = |n: u64| Some(n as f64 / check.rays_checked.max(1) as f64 * 1e6);
+        table.push([
+            structure(&cell.structure, styles),
+            Value::text(&cell.scene),
+            Value::text(&cell.rays),
+            Value::figure(cell.ns(), units::time),
+            Value::figure(rate(errors.missed), units::figure),
+            Value::figure(rate(errors.false_hits), units::figure),
+            Value::figure(rate(errors.wrong_object), units::figure),
+            Value::figure(Some(errors.t_ulp_p99), units::figure),
+            Value::figure(Some(errors.t_ulp_max), short),
+            Value::count(check.rays_checked),
+        ]);
+    }
+    (!table.is_empty()).then(|| table.interactive(Interactive { id: "errors-table", choices: &[0, 1, 2] }))
 }
 
 /// Every cell of the record.
-pub fn all_cells(record: &Record, styles: &Styles) -> String {
-    let columns = [
-        text("scene"),
-        text("rays"),
-        text("structure"),
-        text("kernel"),
+pub fn all_cells(record: &Record, styles: &Styles) -> Markup {
+    let mut table = Table::new([
+        "scene".into(),
+        "rays".into(),
+        "structure".into(),
+        "kernel".into(),
         figure("threads"),
         figure("time per ray"),
         figure("± MAD"),
@@ -190,58 +175,47 @@ pub fn all_cells(record: &Record, styles: &Styles) -> String {
         figure("rays"),
         figure("hits"),
         figure("differences"),
-        text("remark"),
-    ];
-    let count = |n: f64| units::count(n as u64);
-    let bytes = |n: f64| units::bytes(n as u64);
-    let row = |cell: &Cell| {
+        "remark".into(),
+    ]);
+    let bytes = |n: Option<u64>| Value::figure(n.map(|n| n as f64), |n| units::bytes(n as u64));
+    for cell in &record.cells {
         let timing = cell.ns_per_ray.filter(|_| cell.ns().is_some());
         let memory = cell.bytes.as_ref();
-        let peak = memory.and_then(|b| b.peak_build);
-        vec![
+        table.push([
             Value::text(&cell.scene),
             Value::text(&cell.rays),
-            Value::structure(&cell.structure, &styles.class(&cell.structure)),
+            structure(&cell.structure, styles),
             Value::text(cell.kernel.name()),
-            Value::figure(Some(cell.threads as f64), count),
+            Value::count(cell.threads as u64),
             Value::figure(timing.map(|t| t.median), units::time),
             Value::figure(timing.map(|t| t.mad), units::time),
             Value::figure(timing.map(|t| t.min), units::time),
             Value::figure(cell.build(), units::time),
-            Value::figure(memory.map(|b| b.structure as f64), bytes),
-            Value::figure(memory.map(|b| b.geometry_copy as f64), bytes),
-            Value::figure(bytes_per_object(record, cell), trimmed),
-            Value::figure(peak.map(|n| n as f64), bytes),
-            Value::figure(Some(cell.ray_count as f64), count),
-            Value::figure(Some(cell.hits as f64), count),
-            Value::figure(cell.check.as_ref().map(|c| c.differences as f64), count),
+            bytes(memory.map(|b| b.structure)),
+            bytes(memory.map(|b| b.geometry_copy)),
+            Value::figure(bytes_per_object(record, cell), units::figure),
+            bytes(memory.and_then(|b| b.peak_build)),
+            Value::count(cell.ray_count),
+            Value::count(cell.hits),
+            Value::count(cell.check.as_ref().map(|c| c.differences)),
             Value::text(cell.outcome.reason().unwrap_or(&cell.plan)),
-        ]
-    };
-    let rows: Vec<Vec<Value>> = record.cells.iter().map(row).collect();
-    table("cells", &columns, &[0, 1, 2, 4], &rows)
+        ]);
+    }
+    table.interactive(Interactive { id: "cells", choices: &[0, 1, 2, 4] })
 }
 
 /// The structures with their colours and settings.
-pub fn structures(record: &Record, styles: &Styles) -> String {
-    let columns = [text("structure"), text("version"), text("settings"), text("what it is")];
-    let rows: Vec<Vec<Value>> = record
-        .structures
-        .iter()
-        .map(|s| {
-            vec![
-                Value::structure(&s.id, &styles.class(&s.id)),
-                Value::text(&s.version),
-                Value::text(&s.settings),
-                Value::text(&s.description),
-            ]
-        })
-        .collect();
-    table("structures", &columns, &[], &rows)
+pub fn structures(record: &Record, styles: &Styles) -> Markup {
+    let mut table = Table::new(["structure", "version", "settings", "what it is"]);
+    for s in &record.structures {
+        let texts = [&s.version, &s.settings, &s.description].map(Value::text);
+        table.push([structure(&s.id, styles)].into_iter().chain(texts));
+    }
+    table.interactive(Interactive { id: "structures", choices: &[] })
 }
 
 /// Where and how it was measured, and how to do it again.
-pub fn machine(record: &Record) -> String {
+pub fn machine(record: &Record) -> Markup {
     let (machine, suite) = (&record.machine, &record.suite);
     let mode = |on: bool| if on { "on" } else { "off" };
     let facts = [
@@ -261,9 +235,13 @@ pub fn machine(record: &Record) -> String {
         ("program", format!("rayscale {} {}, {} build", suite.version, suite.git, suite.profile)),
         ("compiler", format!("{} {}", suite.rustc, suite.rustflags)),
     ];
-    let mut html = String::from("<dl>\n");
-    for (name, value) in facts.iter().filter(|(_, value)| !value.trim().is_empty()) {
-        let _ = writeln!(html, "<dt>{name}</dt><dd>{}</dd>", escape(value));
+    html! {
+        dl { @for (name, value) in facts.iter().filter(|(_, value)| !value.trim().is_empty()) {
+            dt { (name) } dd { (value) } "\n"
+        } }
+        p { "Made by" }
+        pre { (record.command) }
+        p { "Then, for this page:" }
+        pre { "rayscale report record.json" }
     }
-    html + "</dl>\n"
 }

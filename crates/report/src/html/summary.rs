@@ -1,11 +1,10 @@
 //! What a record says, in plain words.
 
-use super::aggregate::{Overall, bytes_per_object};
-use super::scale::trimmed;
-use super::svg::escape;
-use harness::record::{Cell, Intersector, Record};
+use crate::aggregate::{Overall, bytes_per_object};
+use harness::record::{Cell, Check, Intersector, Record};
 use harness::stats::median;
-use harness::units;
+use harness::units::{self, figure, times};
+use maud::{Markup, html};
 
 /// The structure that reports look at most closely.
 const OURS: &str = "bmssm";
@@ -13,60 +12,44 @@ const OURS: &str = "bmssm";
 /// Differences below this share are called level.
 const LEVEL: f64 = 1.03;
 
-/// The summary as HTML list items.
-pub fn summary(record: &Record, overall: &[Overall], threads: usize) -> String {
-    let mut items: Vec<String> = overall.iter().map(who_wins).collect();
+/// The summary as a list.
+pub fn summary(record: &Record, overall: &[Overall], threads: usize) -> Markup {
+    let mut items: Vec<Markup> = overall.iter().map(who_wins).collect();
     items.extend(ours(record, overall, threads));
     items.extend(least_memory(record, threads));
     items.push(checks(record));
     items.extend(left_out(record));
-    items.iter().map(|item| format!("<li>{item}</li>\n")).collect()
+    html! { ul.summary { @for item in &items { li { (item) } "\n" } } }
 }
 
-fn strong(name: &str) -> String {
-    format!("<strong>{}</strong>", escape(name))
-}
-
-fn times(ratio: f64) -> String {
-    format!("{}×", trimmed(ratio))
-}
-
-fn scenes(n: usize) -> String {
-    if n == 1 { "1 scene".to_owned() } else { format!("{n} scenes") }
+/// Items with commas between them.
+fn list(items: &[Markup]) -> Markup {
+    html! { @for (i, item) in items.iter().enumerate() { @if i > 0 { ", " } (item) } }
 }
 
 /// Who is fastest on a ray set, by how much, and where `bmssm` stands.
-fn who_wins(overall: &Overall) -> String {
+fn who_wins(overall: &Overall) -> Markup {
     let rows = &overall.rows;
     let first = &rows[0];
-    let rays = escape(overall.rays);
-    let mut text = format!(
-        "On <em>{rays}</em> rays {} is fastest: {} per ray",
-        strong(first.structure),
-        units::time(first.ns)
-    );
-    if let Some(second) = rows.get(1) {
-        let ratio = second.ns / first.ns;
-        text += &if ratio < LEVEL {
-            format!(", level with {}", strong(second.structure))
-        } else {
-            format!("; {} takes {} as long", strong(second.structure), times(ratio))
-        };
+    let ours = rows.iter().enumerate().skip(2).find(|(_, row)| row.structure == OURS);
+    html! {
+        "On " em { (overall.rays) } " rays " strong { (first.structure) } " is fastest: " (units::time(first.ns)) " per ray"
+        @if let Some(second) = rows.get(1) {
+            @if second.ns / first.ns < LEVEL {
+                ", level with " strong { (second.structure) }
+            } @else {
+                "; " strong { (second.structure) } " takes " (times(second.ns / first.ns)) " as long"
+            }
+        }
+        @if let Some((place, row)) = ours {
+            ", " strong { (OURS) } " " (times(row.ns / first.ns)) " (place " (place + 1) " of " (rows.len()) ")"
+        }
+        " (geometric mean over " (overall.extent()) ")."
     }
-    if let Some((place, row)) = rows.iter().enumerate().skip(2).find(|(_, row)| row.structure == OURS) {
-        text += &format!(
-            ", {} {} (place {} of {})",
-            strong(OURS),
-            times(row.ns / first.ns),
-            place + 1,
-            rows.len()
-        );
-    }
-    text + &format!(" (geometric mean over {}).", scenes(overall.scenes.len()))
 }
 
 /// How `bmssm` compares with the best other structure on every scene and ray set.
-fn ours(record: &Record, overall: &[Overall], threads: usize) -> Vec<String> {
+fn ours(record: &Record, overall: &[Overall], threads: usize) -> Vec<Markup> {
     let mut ratios: Vec<(f64, &Cell, &Cell)> = Vec::new();
     for cell in record.cells.iter().filter(|c| c.structure == OURS && c.threads == threads) {
         let Some(ns) = cell.ns() else { continue };
@@ -78,50 +61,38 @@ fn ours(record: &Record, overall: &[Overall], threads: usize) -> Vec<String> {
     }
     if ratios.is_empty() {
         let here = overall.iter().any(|o| o.rows.iter().any(|row| row.structure == OURS));
-        return if here { Vec::new() } else { vec![format!("{} was not measured.", strong(OURS))] };
+        return if here { Vec::new() } else { vec![html! { strong { (OURS) } " was not measured." }] };
     }
     ratios.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (won, lost): (Vec<_>, Vec<_>) = ratios.iter().partition(|(ratio, ..)| *ratio < 1.0);
-    let place = |(ratio, cell, other): &&(f64, &Cell, &Cell)| {
-        format!(
-            "{}/{} ({} the time of {})",
-            escape(&cell.scene),
-            escape(&cell.rays),
-            times(*ratio),
-            escape(&other.structure)
-        )
+    let place = |(ratio, cell, other): &(f64, &Cell, &Cell)| {
+        html! { (cell.scene) "/" (cell.rays) " (" (times(*ratio)) " the time of " (other.structure) ")" }
     };
-    let list = |all: Vec<String>| all.join(", ");
     let all = ratios.len();
-    let mut items = Vec::new();
-    if won.is_empty() {
-        items.push(format!(
-            "{} is the fastest structure nowhere among {all} pairs of scene and rays.",
-            strong(OURS)
-        ));
-    } else {
-        let best = list(won.iter().copied().take(3).map(|r| place(&r)).collect());
-        items.push(format!(
-            "{} is the fastest on {} of {all} pairs of scene and rays; best: {best}.",
-            strong(OURS),
-            won.len()
-        ));
-    }
-    if lost.is_empty() {
-        items.push(format!("{} loses nowhere.", strong(OURS)));
-    } else {
-        let worst = list(lost.iter().rev().copied().take(3).map(|r| place(&r)).collect());
-        items.push(format!(
-            "{} loses to the best other structure on {} of {all}; worst: {worst}.",
-            strong(OURS),
-            lost.len()
-        ));
-    }
-    items
+    let best: Vec<Markup> = won.iter().take(3).map(place).collect();
+    let worst: Vec<Markup> = lost.iter().rev().take(3).map(place).collect();
+    vec![
+        html! {
+            strong { (OURS) }
+            @if won.is_empty() {
+                " is the fastest structure nowhere among " (all) " pairs of scene and rays."
+            } @else {
+                " is the fastest on " (won.len()) " of " (all) " pairs of scene and rays; best: " (list(&best)) "."
+            }
+        },
+        html! {
+            strong { (OURS) }
+            @if lost.is_empty() {
+                " loses nowhere."
+            } @else {
+                " loses to the best other structure on " (lost.len()) " of " (all) "; worst: " (list(&worst)) "."
+            }
+        },
+    ]
 }
 
 /// Bytes per object of every structure, the least first.
-fn least_memory(record: &Record, threads: usize) -> Option<String> {
+fn least_memory(record: &Record, threads: usize) -> Option<Markup> {
     let mut medians: Vec<(f64, &str)> = record
         .structure_ids()
         .into_iter()
@@ -132,79 +103,73 @@ fn least_memory(record: &Record, threads: usize) -> Option<String> {
         })
         .collect();
     medians.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let words: Vec<String> =
-        medians.iter().map(|(bytes, name)| format!("{} {} B", strong(name), trimmed(*bytes))).collect();
+    let of = |(bytes, name): &(f64, &str)| html! { strong { (name) } " " (figure(*bytes)) " B" };
+    let words: Vec<Markup> = medians.iter().map(of).collect();
     (!words.is_empty()).then(|| {
-        format!(
-            "Memory per object, copies of the geometry included (median over all cells): {}.",
-            words.join(", ")
-        )
+        html! {
+            "Memory per object, copies of the geometry included (median over all cells): " (list(&words)) "."
+        }
     })
 }
 
 /// Whether the answers were right.
-fn checks(record: &Record) -> String {
+fn checks(record: &Record) -> Markup {
     let (own, foreign): (Vec<&Cell>, Vec<&Cell>) = record
         .cells
         .iter()
         .filter(|cell| cell.check.is_some())
         .partition(|cell| cell.kernel != Intersector::External);
-    let rays =
-        |cells: &[&Cell]| cells.iter().filter_map(|c| c.check.as_ref()).map(|c| c.rays_checked).sum::<u64>();
-    let differences =
-        |cells: &[&Cell]| cells.iter().filter_map(|c| c.check.as_ref()).map(|c| c.differences).sum::<u64>();
+    let sum = |cells: &[&Cell], of: fn(&Check) -> u64| {
+        let all = cells.iter().filter_map(|cell| cell.check.as_ref());
+        all.map(of).fold(0, u64::saturating_add)
+    };
+    let rays = |cells: &[&Cell]| units::count(sum(cells, |check| check.rays_checked));
+    let differences = |cells: &[&Cell]| sum(cells, |check| check.differences);
     if own.is_empty() && foreign.is_empty() {
-        return "No answer was checked against brute force.".to_owned();
+        return html! { "No answer was checked against brute force." };
     }
-    let mut text = String::from("Answers checked against brute force: ");
-    if !own.is_empty() {
-        let (rays, differences) = (units::count(rays(&own)), differences(&own));
-        text += &match differences {
-            0 => format!("structures with the same ray-triangle test give the same bits on all {rays} rays"),
-            n => format!(
-                "<strong class=\"bad\">structures with the same ray-triangle test differ on {} of {rays} rays</strong>",
-                units::count(n)
-            ),
-        };
+    html! {
+        "Answers checked against brute force: "
+        @if !own.is_empty() {
+            @match differences(&own) {
+                0 => { "structures with the same ray-triangle test give the same bits on all " (rays(&own)) " rays" }
+                n => strong.bad {
+                    "structures with the same ray-triangle test differ on " (units::count(n)) " of " (rays(&own)) " rays"
+                }
+            }
+        }
+        @if !foreign.is_empty() {
+            @if !own.is_empty() { "; " }
+            "structures with a test of their own give other bits on " (units::count(differences(&foreign))) " of "
+            (rays(&foreign)) " (what is wrong by exact arithmetic is under " a href="#errors" { "errors" } ")"
+        }
+        "."
     }
-    if !foreign.is_empty() {
-        let join = if own.is_empty() { "" } else { "; " };
-        text += &format!(
-            "{join}structures with a test of their own give other bits on {} of {} (what is \
-             wrong by exact arithmetic is under <a href=\"#errors\">errors</a>)",
-            units::count(differences(&foreign)),
-            units::count(rays(&foreign))
-        );
-    }
-    text + "."
 }
 
 /// What failed or was skipped.
-fn left_out(record: &Record) -> Option<String> {
+fn left_out(record: &Record) -> Option<Markup> {
     let failed = record.cells.iter().filter(|cell| !cell.outcome.is_measured()).count();
-    let skipped: Vec<String> =
-        record.skipped.iter().map(|s| format!("{} ({})", escape(&s.id), escape(&s.reason))).collect();
-    if failed == 0 && skipped.is_empty() {
-        return None;
-    }
-    let mut parts = Vec::new();
-    if failed > 0 {
-        parts.push(format!("{failed} of {} cells have no figure; the table says why", record.cells.len()));
-    }
-    if !skipped.is_empty() {
-        parts.push(format!("skipped: {}", skipped.join(", ")));
-    }
-    Some(format!("Left out: {}.", parts.join("; ")))
+    let skipped: Vec<Markup> = record.skipped.iter().map(|s| html! { (s.id) " (" (s.reason) ")" }).collect();
+    (failed > 0 || !skipped.is_empty()).then(|| {
+        html! {
+            "Left out: "
+            @if failed > 0 { (failed) " of " (record.cells.len()) " cells have no figure; the table says why" }
+            @if failed > 0 && !skipped.is_empty() { "; " }
+            @if !skipped.is_empty() { "skipped: " (list(&skipped)) }
+            "."
+        }
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::aggregate::overall;
     use super::*;
+    use crate::aggregate::overall;
     use harness::testing;
 
     fn of(record: &Record) -> String {
-        summary(record, &overall(record, 1), 1)
+        summary(record, &overall(record, 1), 1).into_string()
     }
 
     #[test]

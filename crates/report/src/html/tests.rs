@@ -1,7 +1,7 @@
 //! The page as a whole.
 
 use super::*;
-use harness::record::{Errors, MemoryRow, Outcome};
+use harness::record::{Errors, MemoryRow, Outcome, Timing};
 use harness::testing;
 
 /// A record with something for every section.
@@ -96,6 +96,20 @@ fn dates() {
         (1_700_000_000, "2023-11-14"),
         (4_107_542_400, "2100-03-01"),
     ] {
-        assert_eq!(date(unix), day);
+        assert_eq!(super::day(unix), day);
     }
+    assert_eq!(super::day(u64::MAX), "on an unknown day");
+}
+
+#[test]
+fn figures_at_the_ends_of_all_numbers_make_a_page_at_once() {
+    let mut record = full();
+    for (cell, ns) in record.cells.iter_mut().zip([5e-324, 1e308].into_iter().cycle()) {
+        cell.ns_per_ray = Some(Timing { median: ns, mad: 1e308, min: 5e-324 });
+        cell.build_ns = vec![u64::MAX, 0];
+        cell.trace_ns = vec![u64::MAX, 0];
+        cell.bytes.as_mut().unwrap().structure = u64::MAX;
+    }
+    let page = html(&record, &Pictures::new());
+    assert!(page.contains("1.00e299 s") && page.ends_with("</html>\n"));
 }

@@ -4,16 +4,18 @@ use harness::record::{Cell, Record};
 use harness::stats::geometric_mean;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One ray set over all scenes, at one number of threads.
+/// Ray sets over all scenes, at one number of threads.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overall<'r> {
-    /// The ray set.
+    /// The ray set or sets, in a word.
     pub rays: &'r str,
-    /// The scenes that all rows share.
-    pub scenes: Vec<&'r str>,
+    /// Number of scenes in what all rows share.
+    pub scenes: usize,
+    /// Number of ray sets in it.
+    pub sets: usize,
     /// The structures, the fastest first.
     pub rows: Vec<Row<'r>>,
-    /// Structures without figures on too many scenes, with the number of scenes they have.
+    /// Structures without figures on too many cells, with the number of those that they have.
     pub left_out: Vec<(&'r str, usize)>,
 }
 
@@ -26,11 +28,11 @@ pub struct Row<'r> {
     pub ns: f64,
     /// Bytes for an object, of structure and geometry copy.
     pub bytes: Option<f64>,
-    /// Its cells on the shared scenes.
+    /// Its cells that all share.
     pub cells: Vec<&'r Cell>,
 }
 
-/// A structure takes part in a comparison if it has figures on at least this share of the scenes.
+/// A structure takes part in a comparison if it has figures on at least this share of the cells.
 const SHARE: f64 = 0.7;
 
 /// The least number of threads of any cell: the figure that reports quote first.
@@ -40,27 +42,55 @@ pub fn threads(record: &Record) -> usize {
 
 /// Every ray set over all scenes, in the record's order.
 pub fn overall(record: &Record, threads: usize) -> Vec<Overall<'_>> {
-    record.ray_sets().into_iter().filter_map(|rays| over_scenes(record, rays, threads)).collect()
+    let sets = record.ray_sets().into_iter();
+    sets.filter_map(|rays| over(record, rays, threads, |cell| cell.rays == rays)).collect()
 }
 
-fn over_scenes<'r>(record: &'r Record, rays: &'r str, threads: usize) -> Option<Overall<'r>> {
-    let mut cells: BTreeMap<&str, BTreeMap<&str, &Cell>> = BTreeMap::new();
-    for cell in record.cells.iter().filter(|c| c.rays == rays && c.threads == threads && c.ns().is_some()) {
-        cells.entry(&cell.structure).or_default().insert(&cell.scene, cell);
+/// All images, and all lists of rays, where there is more than one set of them.
+pub fn by_kind(record: &Record, threads: usize) -> Vec<Overall<'_>> {
+    let kinds = [("images", true), ("lists of rays", false)];
+    let over = |(name, images)| over(record, name, threads, |cell| cell.is_image() == images);
+    kinds.into_iter().filter_map(over).filter(|kind| kind.sets > 1).collect()
+}
+
+impl<'r> Overall<'r> {
+    /// What others are held against: Embree where it was measured, else the fastest.
+    pub fn reference(&self) -> Option<&Row<'r>> {
+        self.rows.iter().find(|row| row.structure == "embree").or(self.rows.first())
     }
-    let all: BTreeSet<&str> = cells.values().flat_map(|scenes| scenes.keys().copied()).collect();
-    let enough = |scenes: usize| scenes as f64 >= SHARE * all.len() as f64;
-    let (kept, few): (Vec<_>, Vec<_>) = cells.into_iter().partition(|(_, scenes)| enough(scenes.len()));
-    let shared: Vec<&str> = record
-        .scenes
-        .iter()
-        .map(|scene| scene.id.as_str())
-        .filter(|scene| !kept.is_empty() && kept.iter().all(|(_, scenes)| scenes.contains_key(scene)))
-        .collect();
+
+    /// What the means are over.
+    pub fn extent(&self) -> String {
+        let of = |n: usize, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+        match self.sets {
+            1 => of(self.scenes, "scene"),
+            sets => format!("{} and {}", of(self.scenes, "scene"), of(sets, "ray set")),
+        }
+    }
+}
+
+fn over<'r>(
+    record: &'r Record,
+    name: &'r str,
+    threads: usize,
+    takes: impl Fn(&Cell) -> bool,
+) -> Option<Overall<'r>> {
+    let taken = |c: &&Cell| takes(c) && c.threads == threads && c.ns().is_some();
+    let mut cells: BTreeMap<&str, BTreeMap<(&str, &str), &Cell>> = BTreeMap::new();
+    for cell in record.cells.iter().filter(taken) {
+        cells.entry(&cell.structure).or_default().insert((&cell.scene, &cell.rays), cell);
+    }
+    let all: BTreeSet<_> = cells.values().flat_map(|of| of.keys().copied()).collect();
+    let enough = |n: usize| n as f64 >= SHARE * all.len() as f64;
+    let (kept, few): (Vec<_>, Vec<_>) = cells.into_iter().partition(|(_, of)| enough(of.len()));
+    let is_shared = |key: &(&str, &str)| kept.iter().all(|(_, of)| of.contains_key(key));
+    let shared: Vec<_> = all.into_iter().filter(is_shared).collect();
+    let distinct =
+        |part: fn(&(&'r str, &'r str)) -> &'r str| shared.iter().map(part).collect::<BTreeSet<_>>().len();
     let mut rows: Vec<Row> = kept
         .iter()
-        .filter_map(|(structure, scenes)| {
-            let cells: Vec<&Cell> = shared.iter().map(|scene| scenes[scene]).collect();
+        .filter_map(|(structure, of)| {
+            let cells: Vec<&Cell> = shared.iter().map(|key| of[key]).collect();
             let ns: Option<Vec<f64>> = cells.iter().map(|cell| cell.ns()).collect();
             let bytes: Option<Vec<f64>> = cells.iter().map(|cell| bytes_per_object(record, cell)).collect();
             Some(Row {
@@ -72,8 +102,9 @@ fn over_scenes<'r>(record: &'r Record, rays: &'r str, threads: usize) -> Option<
         })
         .collect();
     rows.sort_by(|a, b| a.ns.total_cmp(&b.ns));
-    let left_out = few.into_iter().map(|(structure, scenes)| (structure, scenes.len())).collect();
-    (!rows.is_empty()).then_some(Overall { rays, scenes: shared, rows, left_out })
+    let left_out = few.into_iter().map(|(structure, of)| (structure, of.len())).collect();
+    let (scenes, sets) = (distinct(|key| key.0), distinct(|key| key.1));
+    (!rows.is_empty()).then_some(Overall { rays: name, scenes, sets, rows, left_out })
 }
 
 /// Bytes of structure and geometry copy for each object of the scene. A structure that holds
@@ -81,24 +112,7 @@ fn over_scenes<'r>(record: &'r Record, rays: &'r str, threads: usize) -> Option<
 pub fn bytes_per_object(record: &Record, cell: &Cell) -> Option<f64> {
     let bytes = cell.bytes.as_ref()?;
     let objects = record.scene(&cell.scene)?.objects.max(1);
-    Some((bytes.structure + bytes.geometry_copy).max(1) as f64 / objects as f64)
-}
-
-/// The Pareto front: which of the points `(a, b)` no other point beats in one figure without
-/// losing in the other (less is better); the indices sorted by the first figure.
-pub fn front(points: &[(f64, f64)]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|i, j| {
-        let ((a, b), (c, d)) = (points[*i], points[*j]);
-        a.total_cmp(&c).then(b.total_cmp(&d))
-    });
-    let mut best = f64::INFINITY;
-    order.retain(|i| {
-        let better = points[*i].1 < best;
-        best = best.min(points[*i].1);
-        better
-    });
-    order
+    Some(bytes.structure.saturating_add(bytes.geometry_copy).max(1) as f64 / objects as f64)
 }
 
 /// A stretch of ray counts on which one structure is first with its image.
@@ -145,7 +159,7 @@ mod tests {
         let record = testing::record();
         let all = overall(&record, 1);
         let parallel = all.iter().find(|o| o.rays == "parallel").unwrap();
-        assert_eq!(parallel.scenes, ["one", "two"]);
+        assert_eq!(parallel.scenes, 2);
         assert_eq!(parallel.rows[0].structure, "c");
         // 5 ns on one scene, 20 on the other: 10 in the geometric mean.
         assert!((parallel.rows[0].ns - 10.0).abs() < 0.01);
@@ -153,13 +167,24 @@ mod tests {
         let random = all.iter().find(|o| o.rays == "random").unwrap();
         assert_eq!(random.left_out, [("c", 1)]);
         assert_eq!(random.rows.iter().map(|row| row.structure).collect::<Vec<_>>(), ["a", "b"]);
-        assert_eq!(random.scenes.len(), 2);
+        assert_eq!(random.scenes, 2);
     }
 
     #[test]
-    fn the_front_holds_what_nothing_beats() {
-        assert_eq!(front(&[(1.0, 9.0), (2.0, 5.0), (3.0, 6.0), (4.0, 1.0), (2.0, 7.0)]), [0, 1, 3]);
-        assert_eq!(front(&[]), [0; 0]);
+    fn kinds_take_all_their_sets_together() {
+        let mut record = testing::record();
+        assert!(by_kind(&record, 1).is_empty(), "one set of each kind says it all");
+        for mut cell in record.cells.clone().into_iter().filter(|cell| cell.rays == "random") {
+            cell.rays = "diffuse".into();
+            record.cells.push(cell);
+        }
+        let [lists] = &by_kind(&record, 1)[..] else { panic!("lists alone") };
+        assert_eq!((lists.rays, lists.extent().as_str()), ("lists of rays", "2 scenes and 2 ray sets"));
+        assert_eq!(lists.reference().unwrap().structure, "a");
+        for cell in record.cells.iter_mut().filter(|cell| cell.structure == "b") {
+            cell.structure = "embree".into();
+        }
+        assert_eq!(by_kind(&record, 1)[0].reference().unwrap().structure, "embree");
     }
 
     #[test]

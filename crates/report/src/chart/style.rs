@@ -1,7 +1,10 @@
 //! Classes that give each structure its colour, in light and dark.
 
-use crate::palette::{self, Shape};
+use super::palette::{self, Shape};
 use std::fmt::Write;
+
+/// Rules of all charts. Colours are variables, which a page sets by theme.
+pub const RULES: &str = include_str!("chart.css");
 
 /// The structures of a report with their classes.
 pub struct Styles {

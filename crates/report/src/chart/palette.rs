@@ -14,6 +14,27 @@ pub fn of(structure: &str) -> Look {
     registry::look_of(id_of(structure))
 }
 
+/// Radius of a point's marker.
+pub const MARKER: f64 = 4.5;
+
+/// A shape's outline about (0, 0) as an SVG path, about [`MARKER`] wide to each side.
+pub const fn outline(shape: Shape) -> &'static str {
+    match shape {
+        Shape::Circle => "M-4.5,0A4.5,4.5 0 1 0 4.5,0A4.5,4.5 0 1 0 -4.5,0Z",
+        Shape::Square => "M-4,-4H4V4H-4Z",
+        Shape::Triangle => "M0,-5.4L5,3.6H-5Z",
+        Shape::Diamond => "M0,-5.6L5.6,0L0,5.6L-5.6,0Z",
+        Shape::Star => "M0,-6L1.6,-2L6,-1.6L2.6,1.2L3.8,5.4L0,3L-3.8,5.4L-2.6,1.2L-6,-1.6L-1.6,-2Z",
+        Shape::Plus => "M-1.5,-5H1.5V-1.5H5V1.5H1.5V5H-1.5V1.5H-5V-1.5H-1.5Z",
+        Shape::Bar => "M-5,-2.5H5V2.5H-5Z",
+        Shape::Cross => "M-4,-4L0,-1.5L4,-4L1.5,0L4,4L0,1.5L-4,4L-1.5,0Z",
+    }
+}
+
+/// Colours of series that are no structures, for figures in print (Okabe & Ito 2008, the yellow darkened).
+pub const SERIES: [&str; 8] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#9a7d0a", "#000000", "#7a7a7a"];
+
 #[cfg(test)]
 mod tests {
     use super::*;

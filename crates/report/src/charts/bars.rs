@@ -1,10 +1,9 @@
 //! Speed as bars, with the spread of the samples.
 
-use super::super::style::Styles;
-use super::super::svg::{Anchor, Svg, width};
-use super::WIDTH;
+use crate::chart::{Anchor, Styles, Svg, WIDTH, width};
 use harness::record::Cell;
 use harness::units;
+use maud::Markup;
 
 /// Bars longer than this many times the shortest are torn off, so that the others can be told apart.
 const LONGEST: f64 = 8.0;
@@ -12,7 +11,7 @@ const ROW: f64 = 20.0;
 
 /// Time per ray of each cell, the fastest first, with a line from the least to the greatest
 /// sample; failed cells say so. `None` if no cell has a time.
-pub fn bars(cells: &[&Cell], label: &str, styles: &Styles) -> Option<String> {
+pub fn bars(cells: &[&Cell], label: &str, styles: &Styles) -> Option<Markup> {
     let mut timed: Vec<(&Cell, f64)> = cells.iter().filter_map(|cell| Some((*cell, cell.ns()?))).collect();
     timed.sort_by(|a, b| a.1.total_cmp(&b.1));
     let fastest = timed.first()?.1;
@@ -22,20 +21,21 @@ pub fn bars(cells: &[&Cell], label: &str, styles: &Styles) -> Option<String> {
     let figures = timed.iter().map(|(_, ns)| width(&units::time(*ns))).fold(0.0, f64::max) + 8.0;
     let room = WIDTH - names - figures;
     let length = |ns: f64| (ns / longest).min(1.0) * room;
-    let mut svg = Svg::new(WIDTH, (timed.len() + failed.len()) as f64 * ROW + 4.0);
+    let size = (WIDTH, (timed.len() + failed.len()) as f64 * ROW + 4.0);
+    let mut svg = Svg::default();
     for (i, (cell, ns)) in timed.iter().enumerate() {
         let y = i as f64 * ROW + 3.0;
         let middle = y + 7.0;
         let samples = cell.samples_per_ray();
         let (least, greatest) = samples.iter().fold((*ns, *ns), |(a, b), ns| (a.min(*ns), b.max(*ns)));
         let tip = format!(
-            "{}: {} per ray, {} to {} in {} samples; {:.2} times the fastest",
+            "{}: {} per ray, {} to {} in {} samples; {} times the fastest",
             cell.structure,
             units::time(*ns),
             units::time(least),
             units::time(greatest),
             samples.len(),
-            ns / fastest
+            units::figure(ns / fastest)
         );
         svg.tip(&tip, |svg| {
             svg.rect((0.0, y - 3.0), (WIDTH, ROW), "hit");
@@ -63,5 +63,5 @@ pub fn bars(cells: &[&Cell], label: &str, styles: &Styles) -> Option<String> {
             svg.text((names + 4.0, y + 11.0), Anchor::Start, "failed", "no figure (see the table)");
         });
     }
-    Some(svg.finish(label))
+    Some(svg.finish(size, label))
 }

@@ -1,6 +1,7 @@
 //! Places labels beside points so that nothing covers anything.
 
-use super::svg::{MARKER, TEXT, width};
+use super::palette::MARKER;
+use super::svg::{TEXT, width};
 
 /// An axis-aligned rectangle on the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
