@@ -3,9 +3,11 @@
 //! A measurement goes through the modules in this order. [`workload`] makes the rays of a scene; [`registry`] names
 //! the structures; [`auto`] decides the kernels that are left to the suite; [`check`] holds answers to brute force and
 //! to the oracle; [`measure`] takes samples; [`record`] keeps all that was found. [`grouped`], [`changes`] and
-//! [`recommend`] rank and compare what records hold. [`sweeps`] and [`trade`] look at answers instead of times.
+//! [`recommend`] rank and compare what records hold. [`sweeps`] look at answers instead of times.
 
 #![forbid(unsafe_code)]
+
+pub use judge;
 
 pub mod answers;
 pub mod auto;
@@ -26,6 +28,5 @@ pub mod stats;
 pub mod sweeps;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
-pub mod trade;
 pub mod units;
 pub mod workload;

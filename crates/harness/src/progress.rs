@@ -42,6 +42,15 @@ pub enum Event<'a> {
         /// How many passes there are.
         passes: usize,
     },
+    /// Exact arithmetic has decided so many rays of a set.
+    RaysDecided {
+        /// Which.
+        rays: RaysId,
+        /// How many.
+        done: usize,
+        /// How many there are.
+        of: usize,
+    },
     /// All structures were checked on a scene.
     SceneChecked {
         /// Its name.
@@ -66,6 +75,9 @@ impl fmt::Display for Event<'_> {
             Self::SceneSkipped { id, reason } => write!(f, "{id}: skipped: {reason}"),
             Self::RaySetDone { rays, pass: 1, .. } => write!(f, "{rays}"),
             Self::RaySetDone { rays, pass, passes } => write!(f, "{rays}, pass {pass} of {passes}"),
+            Self::RaysDecided { rays, done, of } => {
+                write!(f, "{rays}: {} of {} rays decided", count(*done as u64), count(*of as u64))
+            }
             Self::SceneChecked { id } => f.write_str(id),
             Self::MeshBegun { id, scale } => write!(f, "{id} × {scale}"),
         }

@@ -1,44 +1,69 @@
 //! Which structure to use: measured candidates ranked under a user's constraints.
 
-use crate::auto::Wrong;
 use crate::record::{Cell, Intersector, Outcome, Record};
 use crate::stats::{geometric_mean, median};
 use crate::units;
+use judge::{Counted, Counts, Examined, Limits};
 use primitives::KernelId;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// What a user asks for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Wish {
     /// Bytes that structure and geometry copy may take together.
     pub memory: Option<u64>,
-    /// The share of rays whose answer may be wrong.
-    pub max_error: Option<f64>,
+    /// What errors are put up with.
+    pub limits: Limits,
     /// Rays traced for each build; without it the build doesn't count.
     pub rays_per_build: Option<f64>,
 }
 
+impl Default for Wish {
+    /// Anything goes.
+    fn default() -> Self {
+        Self { memory: None, limits: Limits::NONE, rays_per_build: None }
+    }
+}
+
 /// How many answers are wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ErrorRate {
-    /// The share that was seen to be.
-    pub share: f64,
-    /// The share that is not ruled out for the user's own rays ([`Wrong::likely_per_million`]); 0 if proven.
-    pub bound: f64,
+pub enum ErrorRate {
+    /// None, by proof.
+    Proven,
+    /// As seen on some rays.
+    Seen(Examined),
 }
 
 impl ErrorRate {
-    /// None, by proof.
-    pub const NONE: Self = Self { share: 0.0, bound: 0.0 };
-
-    /// As seen among some rays.
-    pub fn seen(wrong: &Wrong) -> Self {
-        Self { share: wrong.per_million() / 1e6, bound: wrong.likely_per_million() / 1e6 }
+    /// The share of rays that were seen to have errors of the kinds that count.
+    pub fn share(&self, counted: Counted) -> f64 {
+        match self {
+            Self::Proven => 0.0,
+            Self::Seen(found) => found.counts.per_million(found.counts.errors(counted)) / 1e6,
+        }
     }
 
-    fn worse(self, other: Self) -> Self {
-        Self { share: self.share.max(other.share), bound: self.bound.max(other.bound) }
+    /// The share that is not ruled out for the user's own rays; 0 if proven.
+    pub fn bound(&self, counted: Counted) -> f64 {
+        match self {
+            Self::Proven => 0.0,
+            Self::Seen(found) => found.likely_per_million(found.counts.errors(counted)) / 1e6,
+        }
+    }
+
+    /// By which factor a limit is exceeded; 1 if all are kept.
+    fn excess(&self, limits: &Limits) -> f64 {
+        match self {
+            Self::Proven => 1.0,
+            Self::Seen(found) => limits.excess(&Examined { of: found.counts.rays, ..*found }),
+        }
+    }
+
+    fn worse(self, other: Self, limits: &Limits) -> Self {
+        let order =
+            |rate: &Self| (rate.excess(limits), rate.share(limits.counted), rate.bound(limits.counted));
+        if order(&other) > order(&self) { other } else { self }
     }
 }
 
@@ -130,7 +155,7 @@ fn candidate(
         ns: mean(figures.iter().map(|(ns, _)| *ns).collect())?,
         build_ns: figures.iter().map(|(_, build)| *build).fold(0.0, f64::max),
         bytes: cells.iter().map(bytes).max().unwrap_or(0),
-        error: wrong.map(|rates| rates.into_iter().fold(ErrorRate::NONE, ErrorRate::worse)),
+        error: wrong.map(|rates| rates.into_iter().fold(ErrorRate::Proven, |a, b| a.worse(b, &wish.limits))),
         misfits: Vec::new(),
         excess: 1.0,
     };
@@ -139,12 +164,12 @@ fn candidate(
         candidate.misfits.push(format!("takes {}", units::bytes(candidate.bytes)));
         candidate.excess = candidate.excess.max(excess);
     }
-    if let Some(limit) = wish.max_error {
+    if wish.limits.any() {
         match candidate.error {
-            Some(error) if error.share <= limit => {}
-            Some(ErrorRate { share, .. }) => {
-                candidate.misfits.push(format!("{} of its answers are wrong", per_million(share)));
-                candidate.excess = candidate.excess.max(share / limit.max(1e-12));
+            Some(error) if error.excess(&wish.limits) <= 1.0 => {}
+            Some(error) => {
+                candidate.misfits.push(complaint(&error, &wish.limits));
+                candidate.excess = candidate.excess.max(error.excess(&wish.limits));
             }
             None => {
                 candidate.misfits.push("its errors are not known".to_owned());
@@ -153,6 +178,24 @@ fn candidate(
         }
     }
     Ok(candidate)
+}
+
+/// Which limits are not kept, in words.
+fn complaint(error: &ErrorRate, limits: &Limits) -> String {
+    let ErrorRate::Seen(found) = error else { return String::new() };
+    let kept = |limits: Limits| error.excess(&limits) <= 1.0;
+    let mut all = Vec::new();
+    if !kept(Limits { holes: None, displacement: None, ..*limits }) {
+        let share = error.share(limits.counted);
+        all.push(format!("{} of its answers are {}", per_million(share), limits.counted.words()));
+    }
+    if !kept(Limits { errors: None, displacement: None, ..*limits }) {
+        all.push(format!("{} are holes", per_million(found.counts.per_million(found.counts.holes) / 1e6)));
+    }
+    if !kept(Limits { errors: None, holes: None, ..*limits }) {
+        all.push(format!("a hit is {} of the extent from its place", units::figure(found.farthest)));
+    }
+    all.join("; ")
 }
 
 /// A share of wrong answers in words.
@@ -180,16 +223,18 @@ fn error_rate(cell: &Cell, errors: &ErrorRates) -> Option<ErrorRate> {
         return examined;
     }
     let check = cell.check.as_ref()?;
-    let rays = check.rays_checked;
-    let mut wrong = Wrong { rays, of: rays, ..Wrong::default() };
+    let mut counts = Counts { rays: check.rays_checked, ..Counts::default() };
     match check.errors {
-        Some(e) => {
-            (wrong.missed, wrong.false_hits, wrong.wrong_object) = (e.missed, e.false_hits, e.wrong_object)
-        }
+        Some(e) => match e.kinds {
+            Some(kinds) => counts = Counts { rays: check.rays_checked, ..kinds },
+            None => {
+                (counts.holes, counts.phantoms, counts.swapped) = (e.missed, e.false_hits, e.wrong_object)
+            }
+        },
         // Whether one is missing or invented was not asked.
-        None => wrong.missed = check.differences,
+        None => counts.holes = check.differences,
     }
-    Some(ErrorRate::seen(&wrong))
+    Some(ErrorRate::Seen(Examined::all(counts, 0.0)))
 }
 
 #[cfg(test)]
@@ -254,13 +299,14 @@ mod tests {
         }
         let key = |rays: &str| (Answerer::Kernel(KernelId::MollerTrumbore), rays.to_owned());
         let rate =
-            |missed| ErrorRate::seen(&Wrong { rays: 100_000, of: 100_000, missed, ..Wrong::default() });
+            |holes| ErrorRate::Seen(Examined::all(Counts { rays: 100_000, holes, ..Counts::default() }, 0.0));
         let errors: ErrorRates = [(key("parallel"), rate(0)), (key("random"), rate(10))].into();
-        let wish = Wish { max_error: Some(1e-3), ..Wish::default() };
+        let limits = Limits { errors: Some(1e3), ..Limits::NONE };
+        let wish = Wish { limits, ..Wish::default() };
         let all = rank(&record, &errors, &wish);
         assert_eq!(names(&all.fitting), ["a", "b"]);
-        assert_eq!(all.fitting[0].error.unwrap().share, 1e-4);
-        assert_eq!(all.others[0].error.unwrap().share, 2e-3);
+        assert_eq!(all.fitting[0].error.unwrap().share(Counted::Visible), 1e-4);
+        assert_eq!(all.others[0].error.unwrap().share(Counted::Visible), 2e-3);
         let mut examined = errors.clone();
         examined.extend(
             ["parallel", "random"]
@@ -278,9 +324,26 @@ mod tests {
 
     #[test]
     fn what_was_not_seen_is_not_ruled_out_but_by_proof() {
-        let none = ErrorRate::seen(&Wrong { rays: 30_000, of: 30_000, ..Wrong::default() });
-        assert!(none.share == 0.0 && (0.9e-4..1.1e-4).contains(&none.bound), "{none:?}");
-        assert_eq!(ErrorRate::NONE.worse(none), none);
+        let none = ErrorRate::Seen(Examined::all(Counts { rays: 30_000, ..Counts::default() }, 0.0));
+        let (share, bound) = (none.share(Counted::Visible), none.bound(Counted::Visible));
+        assert!(share == 0.0 && (0.9e-4..1.1e-4).contains(&bound), "{none:?}");
+        assert_eq!(ErrorRate::Proven.worse(none, &Limits::NONE), none);
+    }
+
+    #[test]
+    fn another_object_in_the_same_place_counts_only_where_asked() {
+        let record = record();
+        let swapped = Counts { rays: 1000, swapped: 500, ..Counts::default() };
+        let rate = ErrorRate::Seen(Examined::all(swapped, 0.0));
+        let key = |rays: &str| (Answerer::Kernel(KernelId::MollerTrumbore), rays.to_owned());
+        let errors: ErrorRates = [(key("parallel"), rate), (key("random"), rate)].into();
+        let wish = |counted| Wish {
+            limits: Limits { errors: Some(1.0), counted, ..Limits::NONE },
+            ..Wish::default()
+        };
+        assert_eq!(rank(&record, &errors, &wish(Counted::Visible)).fitting.len(), 3);
+        let identity = rank(&record, &errors, &wish(Counted::Identity));
+        assert!(identity.fitting.is_empty() && identity.others[0].misfits[0].contains("another object"));
     }
 
     #[test]

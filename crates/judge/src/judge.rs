@@ -62,7 +62,7 @@ impl<'s> Judge<'s> {
     }
 
     /// The exact answers to a set of rays; see [`Truth::of`].
-    pub fn truth(&self, rays: &RaySet, heard: &(dyn Fn(usize) + Sync)) -> Truth {
+    pub fn truth(&self, rays: &RaySet, heard: &mut dyn FnMut(usize)) -> Truth {
         Truth::of(&self.oracle, rays, heard)
     }
 

@@ -8,8 +8,10 @@
 
 mod bounds;
 mod counts;
+mod examined;
 mod judge;
 mod kind;
+mod limits;
 mod spread;
 mod surface;
 mod tolerance;
@@ -20,8 +22,10 @@ mod tests;
 
 pub use bounds::Bounds;
 pub use counts::{Counted, Counts};
+pub use examined::Examined;
 pub use judge::{Judge, Judgement, Tally};
 pub use kind::Kind;
+pub use limits::Limits;
 pub use spread::{Errors, Spread};
 pub use tolerance::Tolerance;
 pub use truth::{TrueHit, Truth};

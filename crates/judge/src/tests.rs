@@ -29,7 +29,7 @@ fn kinds(scale: f32, ray: Ray, reported: Option<Hit>) -> (Option<Kind>, Counts) 
     let scene = scene(scale);
     let judge = Judge::new(&scene, Tolerance::VISIBLE);
     let rays = RaySet::List(vec![ray]);
-    let truth = judge.truth(&rays, &|_| {});
+    let truth = judge.truth(&rays, &mut |_| {});
     let tally = judge.judge_all(&rays, &truth, &[reported]);
     (judge.judge(&ray, reported, truth.0[0].as_ref()).kind, tally.counts)
 }
@@ -70,7 +70,7 @@ fn errors_in_space_are_in_extents_and_ulps_only_of_ordinary_t() {
     let judge = Judge::new(&scene, Tolerance::VISIBLE);
     let (u, v) = WEIGHTS;
     let rays = RaySet::List(vec![ray(10.0), Ray { origin: Vec3::new(2.5, -5.0, 1e-6), ..ray(10.0) }]);
-    let truth = judge.truth(&rays, &|_| {});
+    let truth = judge.truth(&rays, &mut |_| {});
     let hits =
         [Some(Hit { t: 10.0f32.next_up(), object: 0, u: u + 0.5, v }), Some(Hit { t: 0.0, object: 0, u, v })];
     let mut tally = judge.judge_all(&rays, &truth, &hits);
@@ -102,7 +102,7 @@ proptest! {
         let ray = Ray::new(Vec3::new(x, y, 1.0), Vec3::NEG_Z);
         let kind = |scene: &Scene, object| {
             let judge = Judge::new(scene, Tolerance::VISIBLE);
-            let truth = judge.truth(&RaySet::List(vec![ray]), &|_| {});
+            let truth = judge.truth(&RaySet::List(vec![ray]), &mut |_| {});
             let hit = t.map(|t| Hit { t, object, u: 0.0, v: 0.0 });
             judge.judge(&ray, hit, truth.0[0].as_ref()).kind.filter(|kind| Kind::VISIBLE.contains(kind))
         };

@@ -20,7 +20,8 @@ pub struct TrueHit {
 }
 
 impl TrueHit {
-    pub(crate) fn of((object, hit): &(u32, ExactHit)) -> Self {
+    /// The oracle's hit, rounded.
+    pub fn of((object, hit): &(u32, ExactHit)) -> Self {
         Self {
             object: *object,
             t: hit.t.to_f64(),
@@ -41,20 +42,24 @@ impl TrueHit {
 pub struct Truth(pub Vec<Option<TrueHit>>);
 
 /// Rays between two reports of progress.
-const CHUNK: usize = 1 << 14;
+const STEP: usize = 1 << 16;
+
+/// Rays that a thread decides in turn: neighbours meet the same part of the tree.
+const CHUNK: usize = 1 << 10;
 
 impl Truth {
-    /// What the oracle says, on all threads of the current pool; `heard` is told of every so many rays that are done, by
-    /// whatever thread has done them.
-    pub fn of(oracle: &Oracle, rays: &RaySet, heard: &(dyn Fn(usize) + Sync)) -> Self {
+    /// What the oracle says, on all threads of the current pool; `heard` is told how many rays are decided.
+    pub fn of(oracle: &Oracle, rays: &RaySet, heard: &mut dyn FnMut(usize)) -> Self {
         let mut all = vec![None; rays.len()];
-        all.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, answers)| {
-            // Rays of a chunk in turn: neighbours meet the same part of the tree.
-            for (i, answer) in answers.iter_mut().enumerate() {
-                *answer = oracle.closest(&rays.ray(chunk * CHUNK + i)).as_ref().map(TrueHit::of);
-            }
-            heard(answers.len());
-        });
+        for (step, answers) in all.chunks_mut(STEP).enumerate() {
+            answers.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, answers)| {
+                for (i, answer) in answers.iter_mut().enumerate() {
+                    let ray = rays.ray(step * STEP + chunk * CHUNK + i);
+                    *answer = oracle.closest(&ray).as_ref().map(TrueHit::of);
+                }
+            });
+            heard(rays.len().min((step + 1) * STEP));
+        }
         Self(all)
     }
 }

@@ -40,6 +40,7 @@ impl Listener for Progress<'_> {
             Event::RaySetDone { pass: 1, .. } => self.console.note(format_args!("  {event}")),
             // Further passes are no news to a log.
             Event::RaySetDone { .. } => {}
+            Event::RaysDecided { done, of, .. } if done < of => {}
             _ => self.console.note(event),
         }
     }

@@ -20,4 +20,4 @@ mod tests;
 pub mod trade;
 
 pub use markdown::markdown;
-pub use splice::{BEGIN, END, SpliceError, splice, summary};
+pub use splice::{BEGIN, END, SpliceError, TRADE, splice, splice_at, summary};

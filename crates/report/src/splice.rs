@@ -10,15 +10,18 @@ pub const BEGIN: &str = "<!-- rayscale: begin -->";
 /// Ends it.
 pub const END: &str = "<!-- rayscale: end -->";
 
+/// The same for the summary of a trade.
+pub const TRADE: [&str; 2] = ["<!-- rayscale trade: begin -->", "<!-- rayscale trade: end -->"];
+
 /// Why a text takes no summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SpliceError {
     /// The markers are not there once each and in order.
-    #[error("there must be one line `{BEGIN}` and behind it one line `{END}`")]
-    Markers,
+    #[error("there must be one line `{0}` and behind it one line `{1}`")]
+    Markers(&'static str, &'static str),
     /// What is to be put in holds a marker: the next splice would cut there.
-    #[error("the record's summary holds one of the lines `{BEGIN}` and `{END}` itself")]
-    Inside,
+    #[error("the record's summary holds one of the lines `{0}` and `{1}` itself")]
+    Inside(&'static str, &'static str),
 }
 
 /// The text with what lies between the markers replaced.
@@ -26,15 +29,24 @@ pub enum SpliceError {
 /// # Errors
 /// If the markers are not there once each and in order, or `between` holds one.
 pub fn splice(text: &str, between: &str) -> Result<String, SpliceError> {
-    if [BEGIN, END].iter().any(|marker| between.contains(marker)) {
-        return Err(SpliceError::Inside);
+    splice_at(text, between, [BEGIN, END])
+}
+
+/// The same with other markers.
+///
+/// # Errors
+/// As [`splice`].
+pub fn splice_at(text: &str, between: &str, [begin, end]: [&'static str; 2]) -> Result<String, SpliceError> {
+    let markers = SpliceError::Markers(begin, end);
+    if [begin, end].iter().any(|marker| between.contains(marker)) {
+        return Err(SpliceError::Inside(begin, end));
     }
-    let (before, rest) = text.split_once(BEGIN).ok_or(SpliceError::Markers)?;
-    let (old, after) = rest.split_once(END).ok_or(SpliceError::Markers)?;
-    if [old, after].iter().any(|part| part.contains(BEGIN)) || after.contains(END) || before.contains(END) {
-        return Err(SpliceError::Markers);
+    let (before, rest) = text.split_once(begin).ok_or(markers)?;
+    let (old, after) = rest.split_once(end).ok_or(markers)?;
+    if [old, after].iter().any(|part| part.contains(begin)) || after.contains(end) || before.contains(end) {
+        return Err(markers);
     }
-    Ok(format!("{before}{BEGIN}\n{}\n{END}{after}", between.trim()))
+    Ok(format!("{before}{begin}\n{}\n{end}{after}", between.trim()))
 }
 
 /// What a README says of a record, and the commands that made it.

@@ -57,7 +57,7 @@ fn only_what_lies_between_the_markers_changes() {
     assert_eq!(new, format!("before\n{BEGIN}\nnew\n{END}\nafter\n"));
     assert_eq!(splice(&new, "new").unwrap(), new);
     for bad in [format!("{END}\n{BEGIN}"), BEGIN.to_owned(), String::new(), format!("{text}{text}")] {
-        assert_eq!(splice(&bad, "new"), Err(SpliceError::Markers));
+        assert_eq!(splice(&bad, "new"), Err(SpliceError::Markers(BEGIN, END)));
     }
     let summary = summary(&testing::record(), "rayscale report record.json --splice README.md");
     assert!(summary.contains("--splice README.md") && summary.contains("| c | 0.500 |"));
@@ -92,6 +92,6 @@ fn names_from_outside_stay_text() {
 fn nothing_with_a_marker_is_spliced() {
     let text = format!("{BEGIN}\n{END}");
     for marker in [BEGIN, END] {
-        assert_eq!(splice(&text, &format!("made by `{marker}`")), Err(SpliceError::Inside));
+        assert_eq!(splice(&text, &format!("made by `{marker}`")), Err(SpliceError::Inside(BEGIN, END)));
     }
 }

@@ -1,74 +1,115 @@
 //! `--kernel auto`: the cheapest ray-triangle test that is right often enough for a scene and its rays. Like the structures,
 //! it takes no more than what the scene requires.
 
+mod cost;
 mod examine;
 
-pub use examine::{Examiner, Wrong};
+pub use examine::Examiner;
 
 use crate::registry::{Choice, ChosenKernel};
+use crate::units;
 use crate::workload::Batch;
 use accel::{Geometry, Scene};
+use cost::costs;
+use judge::{Examined, Limits, Tolerance};
 use primitives::KernelId;
 use std::borrow::Cow;
+use std::fmt::Write;
 
-/// Kernels whose errors have to be measured, cheapest first as `rayscale trade` finds them. After these comes
-/// [`KernelId::Exact`], which is proven and costs less than [`KernelId::Double`].
-pub const MEASURED: [KernelId; 3] = [KernelId::MollerTrumbore, KernelId::BaldwinWeber, KernelId::Watertight];
+/// Kernels that are tried. The last is proven; [`KernelId::Double`] costs more and is not.
+pub const TRIED: [KernelId; 4] =
+    [KernelId::MollerTrumbore, KernelId::BaldwinWeber, KernelId::Watertight, KernelId::Exact];
 
 /// Rays examined for a decision, at most.
 const MOST_RAYS: usize = 1 << 20;
 
 /// A kernel and why it was chosen.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
     /// The kernel.
     pub kernel: KernelId,
     /// In words, with figures.
     pub reason: String,
+    /// Kernels by their cost in this structure, the cheapest first; empty where there was nothing to decide.
+    pub trials: Vec<Trial>,
 }
 
-/// The cheapest kernel that gives at most `max_error` wrong answers in a million of these rays.
-pub fn decide(scene: &Scene, batches: &[Batch], max_error: f64) -> Decision {
-    let decision = |kernel: KernelId, reason: String| Decision { kernel, reason };
-    if !matches!(scene.geometry, Geometry::Triangles(_)) {
-        return decision(MEASURED[0], "the scene has no triangles".to_owned());
+/// A kernel that was tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// Which.
+    pub kernel: KernelId,
+    /// ns per ray in the structure that it was chosen for; none where it can't be built or traced.
+    pub ns: Option<f64>,
+    /// Its errors; none where a cheaper one was chosen.
+    pub found: Option<Examined>,
+}
+
+/// Decides kernels for the rays of a scene; what is known of a kernel's errors holds for all structures.
+pub struct Decider<'s> {
+    scene: &'s Scene,
+    batches: &'s [Batch<'s>],
+    examiner: Option<Examiner<'s>>,
+}
+
+impl<'s> Decider<'s> {
+    /// For these rays, all of them up to a million.
+    pub const fn new(scene: &'s Scene, batches: &'s [Batch<'s>]) -> Self {
+        Self { scene, batches, examiner: None }
     }
-    let limit = format!("at most {max_error} wrong in a million rays wanted");
-    let exact =
-        |tried: &str| decision(KernelId::Exact, format!("{limit}; {tried}exact is proven to give none"));
-    if max_error <= 0.0 {
-        return exact("");
-    }
-    let mut examiner = Examiner::new(scene, batches, MOST_RAYS);
-    let mut tried = String::new();
-    for kernel in MEASURED {
-        let wrong = examiner.examine_all(kernel);
-        let found = format!("{kernel} gives {wrong}");
-        if wrong.bound_per_million() <= max_error {
-            return decision(kernel, format!("{limit}; {tried}{found}"));
+
+    /// The cheapest kernel in the structure of `choice` that keeps the limits on these rays.
+    pub fn decide(&mut self, choice: &Choice, limits: &Limits) -> Decision {
+        let plain = |kernel, reason: String| Decision { kernel, reason, trials: Vec::new() };
+        if !matches!(self.scene.geometry, Geometry::Triangles(_)) {
+            return plain(TRIED[0], "the scene has no triangles".to_owned());
         }
-        tried.push_str(&found);
-        tried.push_str("; ");
+        if limits.ask_for_none() {
+            return plain(
+                KernelId::Exact,
+                format!("{} wanted; exact is proven to give none", limits.words()),
+            );
+        }
+        let ns = costs(choice, self.scene, self.batches, &TRIED);
+        let trial = |(kernel, ns)| Trial { kernel, ns, found: None };
+        let mut trials: Vec<Trial> = TRIED.into_iter().zip(ns).map(trial).collect();
+        trials.sort_by(|a, b| a.ns.unwrap_or(f64::INFINITY).total_cmp(&b.ns.unwrap_or(f64::INFINITY)));
+        let mut reason = format!("{} wanted", limits.words());
+        let mut kernel = KernelId::Exact;
+        for trial in &mut trials {
+            let cost = trial.ns.map_or("no time".to_owned(), units::time);
+            let proven = trial.kernel == KernelId::Exact;
+            // Writing to a string does not fail.
+            let _ = if proven {
+                write!(reason, "; exact takes {cost} and is proven to give none")
+            } else {
+                let found = self.examiner().examine_all(trial.kernel);
+                trial.found = Some(found);
+                write!(reason, "; {} takes {cost} and gives {}", trial.kernel, found.words(limits.counted))
+            };
+            if proven || trial.found.is_some_and(|found| limits.kept_by(&found)) {
+                kernel = trial.kernel;
+                break;
+            }
+        }
+        Decision { kernel, reason, trials }
     }
-    exact(&tried)
+
+    fn examiner(&mut self) -> &mut Examiner<'s> {
+        let (scene, batches) = (self.scene, self.batches);
+        self.examiner.get_or_insert_with(|| Examiner::new(scene, batches, MOST_RAYS, Tolerance::VISIBLE))
+    }
 }
 
 /// The choices with every kernel decided that was left to the suite, for a scene and the rays to be traced.
 /// Choices that are decided stay so.
 pub fn resolve<'c>(choices: &'c [Choice], scene: &Scene, batches: &[Batch]) -> Cow<'c, [Choice]> {
-    let mut known: Vec<(f64, Decision)> = Vec::new();
+    let mut decider = Decider::new(scene, batches);
     let mut all = Cow::Borrowed(choices);
     for (i, choice) in choices.iter().enumerate() {
-        let ChosenKernel::Auto { max_error } = choice.kernel else { continue };
-        let decision = match known.iter().find(|(limit, _)| *limit == max_error) {
-            Some((_, decision)) => decision.clone(),
-            None => {
-                let decision = decide(scene, batches, max_error);
-                known.push((max_error, decision.clone()));
-                decision
-            }
-        };
-        all.to_mut()[i] = choice.decided(decision.kernel, decision.reason);
+        let ChosenKernel::Auto { limits } = &choice.kernel else { continue };
+        let Decision { kernel, reason, .. } = decider.decide(choice, limits);
+        all.to_mut()[i] = choice.decided(kernel, reason);
     }
     all
 }
@@ -84,32 +125,58 @@ mod tests {
         [Query::Closest, Query::Occluded].map(|query| Batch { rays, query })
     }
 
+    fn at_most(errors: f64) -> Limits {
+        Limits { errors: Some(errors), ..Limits::NONE }
+    }
+
+    /// By its own record: what was cheaper did not keep the limits.
+    fn is_sensible(decision: &Decision, limits: &Limits) {
+        let place = decision.trials.iter().position(|trial| trial.kernel == decision.kernel).unwrap();
+        let (cheaper, chosen) = (&decision.trials[..place], decision.trials[place]);
+        let keeps = |trial: &Trial| trial.found.is_some_and(|found| limits.kept_by(&found));
+        assert!(!cheaper.iter().any(keeps), "{}", decision.reason);
+        assert!(chosen.kernel == KernelId::Exact || keeps(&chosen), "{}", decision.reason);
+        assert!(decision.trials.is_sorted_by_key(|trial| trial.ns.unwrap_or(f64::INFINITY)));
+    }
+
     #[test]
-    fn the_limit_decides() {
+    fn the_limit_decides_among_kernels_by_their_cost() {
         let (scene, rays) = testing::from_inside(3000);
         let batches = both(&rays);
-        let at = |max_error| decide(&scene, &batches, max_error);
-        assert_eq!(at(1e6).kernel, KernelId::MollerTrumbore);
-        assert_eq!(at(0.0).kernel, KernelId::Exact);
-        assert!(at(0.0).reason.contains("proven"));
-        // Every one of these rays was examined, and what is chosen keeps the limit on them.
-        let mut examiner = Examiner::new(&scene, &batches, MOST_RAYS);
-        let rates = MEASURED.map(|kernel| examiner.examine_all(kernel).per_million());
-        for limit in [rates[0], rates[1], rates[2], 1.0, 0.5] {
-            let chosen = at(limit.max(1e-9));
-            let first = MEASURED.iter().zip(rates).find(|(_, rate)| *rate <= limit.max(1e-9));
-            assert_eq!(
-                chosen.kernel,
-                first.map_or(KernelId::Exact, |(kernel, _)| *kernel),
-                "{}",
-                chosen.reason
-            );
-            assert!(chosen.reason.contains("6,000"), "{}", chosen.reason);
+        let mut decider = Decider::new(&scene, &batches);
+        for structure in ["ssm", "bmssm", "minmax"] {
+            let choice = registry::parse(&format!("{structure}:kernel=auto")).unwrap();
+            let none = decider.decide(&choice, &at_most(0.0));
+            assert!(none.kernel == KernelId::Exact && none.reason.contains("proven"));
+            for limit in [1e6, 1.0, 0.5, 1e-9] {
+                let decision = decider.decide(&choice, &at_most(limit));
+                is_sensible(&decision, &at_most(limit));
+                assert_eq!(decision.trials.len(), TRIED.len());
+                assert!(decision.kernel == KernelId::Exact || decision.reason.contains("6,000"));
+            }
         }
     }
 
     #[test]
-    fn choices_are_decided_once_and_others_stay() {
+    fn what_leaks_is_not_chosen_however_cheap() {
+        use scenes::rays::{RaysId, RaysSpec, generate};
+        let scene = scenes::load(&"bumps-1k@offset=1e5,0,0".parse().unwrap()).unwrap();
+        let tracer = registry::quick(&scene, KernelId::Exact);
+        let spec = RaysSpec { id: RaysId::LeakVertex, rows: 40, cols: 40, seed: 1 };
+        let rays = generate(&scene, &spec, tracer.as_ref()).unwrap();
+        let batches = both(&rays);
+        let mut decider = Decider::new(&scene, &batches);
+        let choice = registry::parse("ssm:kernel=auto").unwrap();
+        let tight = Limits { holes: Some(0.0), ..Limits::NONE };
+        let decision = decider.decide(&choice, &tight);
+        is_sensible(&decision, &tight);
+        assert!(decision.kernel.is_watertight(), "{}", decision.reason);
+        let near = Limits { displacement: Some(0.0), ..Limits::NONE };
+        assert_eq!(decider.decide(&choice, &near).kernel, KernelId::Exact);
+    }
+
+    #[test]
+    fn choices_are_decided_and_others_stay() {
         let (scene, rays) = testing::from_inside(3000);
         let batches = both(&rays);
         let choices = ["ssm:kernel=auto", "minmax:kernel=watertight", "obvhs-bvh2"]
@@ -117,7 +184,7 @@ mod tests {
         assert!(choices[0].builder.build(&scene, &Need::GENERAL).is_err(), "it is not decided");
         assert!(choices[0].builder.settings().contains("kernel=auto"));
         let mut limited = choices.to_vec();
-        limited[0].kernel = ChosenKernel::Auto { max_error: 0.0 };
+        limited[0].kernel = ChosenKernel::Auto { limits: at_most(0.0) };
         let decided = resolve(&limited, &scene, &batches);
         assert_eq!([0, 1, 2].map(|i| decided[i].kernel()), ["exact", "watertight", "own"]);
         assert_eq!(decided[0].spec, choices[0].spec);

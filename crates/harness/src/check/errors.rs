@@ -1,8 +1,8 @@
 //! What wrong answers are, by exact arithmetic.
 
 use crate::record::Errors;
-use crate::stats::quantile;
 use accel::{Geometry, Hit, RaySet, Scene};
+use judge::{Judge, Tally, TrueHit};
 use oracle::{Oracle, Verdict, classify};
 use rayon::prelude::*;
 
@@ -18,18 +18,25 @@ pub fn oracle_of(scene: &Scene) -> Oracle {
 ///
 /// # Panics
 /// If a number is not below the set's length.
-pub fn judge(oracle: &Oracle, rays: &RaySet, hits: &[Option<Hit>], numbers: &[usize]) -> Errors {
-    let judged: Vec<_> =
-        numbers.par_iter().map(|i| classify(hits[*i], oracle.closest(&rays.ray(*i)).as_ref())).collect();
-    let count = |verdict| judged.iter().filter(|j| j.verdict == verdict).count() as u64;
-    let right = judged.iter().filter(|j| j.verdict == Verdict::Agree);
-    let ulps: Vec<f64> = right.filter_map(|j| j.t_ulp_error).map(f64::abs).collect();
+pub fn judge(judge: &Judge, rays: &RaySet, hits: &[Option<Hit>], numbers: &[usize]) -> Errors {
+    let one = |i: &usize| {
+        let (ray, hit) = (rays.ray(*i), hits[*i]);
+        let exact = judge.oracle().closest(&ray);
+        let truth = exact.as_ref().map(TrueHit::of);
+        (classify(hit, exact.as_ref()).verdict, judge.judge(&ray, hit, truth.as_ref()))
+    };
+    let judged: Vec<_> = numbers.par_iter().map(one).collect();
+    let count = |verdict| judged.iter().filter(|(found, _)| *found == verdict).count() as u64;
+    let mut tally = Tally::default();
+    judged.iter().for_each(|(_, judgement)| tally.add(judgement));
+    let space = tally.errors();
     Errors {
         missed: count(Verdict::Missed),
         false_hits: count(Verdict::False),
         wrong_object: count(Verdict::WrongObject),
-        t_ulp_p99: quantile(&ulps, 0.99).unwrap_or(0.0),
-        t_ulp_max: ulps.iter().copied().fold(0.0, f64::max),
+        kinds: Some(tally.counts),
+        t_ulp_p99: space.t_ulps.p99,
+        t_ulp_max: space.t_ulps.largest,
         rays_exact: numbers.len() as u64,
     }
 }

@@ -4,6 +4,7 @@ use super::*;
 use crate::answers::Answers;
 use crate::record::Query;
 use crate::testing;
+use ::judge::{Judge, Tolerance};
 use accel::{Accel, Footprint, Hit, Need, Ray, RaySet, Scene};
 use primitives::KernelId;
 
@@ -102,7 +103,7 @@ fn a_sample_compares_what_it_says() {
 #[test]
 fn wrong_answers_are_told_apart_by_the_oracle() {
     let (scene, inside) = testing::from_inside(600);
-    let oracle = oracle_of(&scene);
+    let oracle = Judge::new(&scene, Tolerance::VISIBLE);
     let choice = crate::registry::parse("brute:kernel=watertight").unwrap();
     let mut answers = Answers::new(Query::Closest, inside.len());
     answers.trace(choice.builder.build(&scene, &Need::GENERAL).unwrap().as_ref(), &inside);

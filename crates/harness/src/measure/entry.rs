@@ -5,14 +5,14 @@ use super::failure::Failure;
 use super::job::Job;
 use super::trace::{Runner, rounds};
 use crate::answers::Answers;
-use crate::check::{Reference, compare, judge, oracle_of};
+use crate::check::{self, Reference, compare};
 use crate::guard::guard;
 use crate::record::{Cell, Check, Outcome, Query};
 use crate::registry::Choice;
 use crate::workload::{Workload, in_time, sample, thin};
 use accel::{Accel, Builder, Counters, Geometry, Need, RaySet, Scene};
 use baselines::Brute;
-use oracle::Oracle;
+use judge::{Judge, Tolerance};
 use primitives::KernelId;
 use scenes::rays::RaysId;
 use std::borrow::Cow;
@@ -42,17 +42,17 @@ impl Entry<'_> {
     }
 }
 
-/// Brute force and the exact oracle, built when first asked for.
+/// Brute force and the judge, built when first asked for.
 pub struct References<'s> {
     scene: &'s Scene,
     brute: BTreeMap<KernelId, Box<dyn Accel + 's>>,
-    oracle: Option<Oracle>,
+    judge: Option<Judge<'s>>,
 }
 
 impl<'s> References<'s> {
     /// None built yet.
     pub fn new(scene: &'s Scene) -> Self {
-        Self { scene, brute: BTreeMap::new(), oracle: None }
+        Self { scene, brute: BTreeMap::new(), judge: None }
     }
 
     fn brute(&mut self, kernel: KernelId) -> &dyn Accel {
@@ -62,11 +62,11 @@ impl<'s> References<'s> {
         &**self.brute.entry(kernel).or_insert_with(build)
     }
 
-    fn oracle(&mut self) -> Option<&Oracle> {
-        if let (None, Geometry::Triangles(_)) = (&self.oracle, &self.scene.geometry) {
-            self.oracle = Some(oracle_of(self.scene));
+    fn judge(&mut self) -> Option<&Judge<'s>> {
+        if let (None, Geometry::Triangles(_)) = (&self.judge, &self.scene.geometry) {
+            self.judge = Some(Judge::new(self.scene, Tolerance::VISIBLE));
         }
-        self.oracle.as_ref()
+        self.judge.as_ref()
     }
 }
 
@@ -288,7 +288,7 @@ fn check(
         numbers.extend(sample(different.len(), most).into_iter().map(|j| different[j]));
         numbers.sort_unstable();
         numbers.dedup();
-        check.errors = refs.oracle().map(|oracle| judge(oracle, rays, hits, &numbers));
+        check.errors = refs.judge().map(|judge| check::judge(judge, rays, hits, &numbers));
     }
     check
 }

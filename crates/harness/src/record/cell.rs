@@ -2,6 +2,7 @@
 
 use super::{Intersector, Outcome};
 use crate::stats;
+use judge::Counts;
 use scenes::rays::{Query, RaysId};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -184,8 +185,11 @@ pub struct Errors {
     pub false_hits: u64,
     /// A hit of another object than the nearest.
     pub wrong_object: u64,
-    /// 99 % of the hits of the right object are off by at most so many units in the last
-    /// place of t, over the rays decided exactly.
+    /// The same answers by what they do; none in records of old.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinds: Option<Counts>,
+    /// 99 % of the hits of the right surface are off by at most so many units in the last
+    /// place of t, over the rays decided exactly. In records of old t near 0 counts too, where such units say little.
     pub t_ulp_p99: f64,
     /// The largest error of t in such units.
     pub t_ulp_max: f64,

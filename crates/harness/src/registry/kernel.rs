@@ -3,14 +3,12 @@
 use super::{Choice, Entry, RegistryError, Settings, StructureSpec};
 use crate::record::Intersector;
 use accel::{Accel, BuildError, Builder, Need, Scene};
+use judge::Limits;
 use primitives::KernelId;
 use std::sync::Arc;
 
 /// The value of the setting `kernel` that leaves the choice to the suite.
 pub const AUTO: &str = "auto";
-
-/// Wrong answers in a million that are put up with where nobody says how many.
-pub const DEFAULT_MAX_ERROR: f64 = 1.0;
 
 /// A structure's ray-triangle test.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +19,8 @@ pub enum ChosenKernel {
     Given(KernelId),
     /// To be decided for a scene and its rays.
     Auto {
-        /// Wrong answers in a million that are put up with.
-        max_error: f64,
+        /// What errors are put up with.
+        limits: Limits,
     },
     /// Decided.
     Decided {
@@ -37,7 +35,7 @@ impl ChosenKernel {
     pub(super) fn of(entry: &Entry, spec: &StructureSpec) -> Self {
         match spec.get("kernel") {
             _ if !entry.traits.built_in => Self::External,
-            Some(AUTO) => Self::Auto { max_error: DEFAULT_MAX_ERROR },
+            Some(AUTO) => Self::Auto { limits: Limits::default() },
             given => Self::Given(given.and_then(KernelId::from_id).unwrap_or(KernelId::MollerTrumbore)),
         }
     }

@@ -12,7 +12,7 @@ mod settings;
 pub use build::{BuildFailure, guarded_build};
 pub use entries::keep_to_one_thread;
 pub use error::RegistryError;
-pub use kernel::{AUTO, ChosenKernel, DEFAULT_MAX_ERROR};
+pub use kernel::{AUTO, ChosenKernel};
 pub use look::{Look, Shape, look};
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 

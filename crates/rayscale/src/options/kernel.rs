@@ -1,9 +1,10 @@
 //! The options that choose a ray-triangle test.
 
+use super::limits::LimitOptions;
 use super::names::kernels;
 use crate::error::Error;
 use clap::Args;
-use harness::registry::{self, AUTO, Choice, ChosenKernel, DEFAULT_MAX_ERROR, StructureSpec};
+use harness::registry::{self, AUTO, Choice, ChosenKernel, StructureSpec};
 use primitives::KernelId;
 
 /// Which ray-triangle test, and how wrong it may be.
@@ -12,16 +13,9 @@ pub struct KernelOptions {
     /// The ray-triangle intersector of the suite's own structures
     #[arg(long, value_name = "ID", value_parser = kernels())]
     pub kernel: Option<String>,
-    /// With the kernel auto: wrong answers that may be given in a million rays, missed, invented or of another object; 1
-    /// otherwise
-    #[arg(long, value_name = "PER MILLION", value_parser = per_million)]
-    pub max_error: Option<f64>,
-}
-
-/// A number of wrong answers in a million rays.
-pub fn per_million(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|rate| (0.0..=1e6).contains(rate));
-    number.ok_or_else(|| "must be a number of wrong answers in a million rays, from 0 to 1000000".to_owned())
+    /// For the kernel auto, which keeps to one error in a million otherwise
+    #[command(flatten)]
+    pub limits: LimitOptions,
 }
 
 impl KernelOptions {
@@ -41,7 +35,7 @@ impl KernelOptions {
     /// The structures with the kernel of `--kernel`, where they have none of their own and name none.
     ///
     /// # Errors
-    /// Structures, settings or kernels that are not known; `--max-error` where no kernel is to be chosen.
+    /// Structures, settings or kernels that are not known; limits where no kernel is to be chosen.
     pub fn choose_all(&self, specs: &[StructureSpec]) -> Result<Vec<Choice>, Error> {
         let kernel = self.name()?;
         let choose = |spec: &StructureSpec| -> Result<Choice, Error> {
@@ -89,15 +83,15 @@ impl KernelOptions {
     fn limit(&self, mut choices: Vec<Choice>) -> Result<Vec<Choice>, Error> {
         let mut any = false;
         for choice in &mut choices {
-            if let ChosenKernel::Auto { max_error } = &mut choice.kernel {
-                *max_error = self.max_error.unwrap_or(DEFAULT_MAX_ERROR);
+            if let ChosenKernel::Auto { limits } = &mut choice.kernel {
+                *limits = self.limits.limits_or_default();
                 any = true;
             }
         }
-        if self.max_error.is_some() && !any {
+        if let (Some(option), false) = (self.limits.given(), any) {
             return Err(Error::usage(
-                "--max-error is for a kernel that is to be chosen, and none is",
-                "add --kernel auto, or leave --max-error out",
+                format!("{option} is for a kernel that is to be chosen, and none is"),
+                format!("add --kernel auto, or leave {option} out"),
             ));
         }
         Ok(choices)
@@ -107,22 +101,26 @@ impl KernelOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use harness::judge::Limits;
 
     fn options(kernel: Option<&str>, max_error: Option<f64>) -> KernelOptions {
-        KernelOptions { kernel: kernel.map(str::to_owned), max_error }
+        let limits = LimitOptions { max_error, ..LimitOptions::default() };
+        KernelOptions { kernel: kernel.map(str::to_owned), limits }
     }
 
     #[test]
     fn auto_has_a_limit_and_only_auto_has() {
         let specs = ["ssm", "minmax:kernel=exact", "obvhs-bvh2"].map(|id| id.parse().unwrap());
         let choices = options(Some("auto"), Some(2.5)).choose_all(&specs).unwrap();
-        assert_eq!(choices[0].kernel, ChosenKernel::Auto { max_error: 2.5 });
+        assert_eq!(
+            choices[0].kernel,
+            ChosenKernel::Auto { limits: Limits { errors: Some(2.5), ..Limits::NONE } }
+        );
         assert_eq!([0, 1, 2].map(|i| choices[i].kernel()), ["auto", "exact", "own"]);
         let alone = options(None, None).choose_one("ssm:kernel=auto").unwrap();
-        assert_eq!(alone.kernel, ChosenKernel::Auto { max_error: DEFAULT_MAX_ERROR });
+        assert_eq!(alone.kernel, ChosenKernel::Auto { limits: Limits::default() });
         assert!(options(Some("exact"), Some(1.0)).choose_all(&specs).is_err());
         assert!(options(Some("automatic"), None).choose_all(&specs).is_err());
         assert!(options(Some("auto"), None).choose_one("obvhs-bvh2").is_err());
-        assert!(per_million("-1").is_err() && per_million("NaN").is_err() && per_million("0.5") == Ok(0.5));
     }
 }

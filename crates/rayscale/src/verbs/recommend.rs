@@ -2,14 +2,15 @@
 
 use crate::console::Console;
 use crate::error::Error;
+use crate::options::LimitOptions;
 use crate::options::Selection;
-use crate::options::per_million;
 use crate::progress::Progress;
 use crate::verb::{Outcome, Verb};
 use accel::{Need, Scene};
 use clap::Args;
 use harness::auto::Examiner;
 use harness::guard::guard;
+use harness::judge::{Counted, Tolerance};
 use harness::measure::{Options, Session, begin, run};
 use harness::recommend::{self, Answerer, Candidate, ErrorRate, ErrorRates, Recommendation, Wish, rank};
 use harness::record::Record;
@@ -30,7 +31,8 @@ ranked by time per ray: the geometric mean over the ray sets, plus each ray's sh
 if --rays-per-build says how many rays share one. Uses one thread unless --threads says otherwise.
 
 Errors are counted by exact arithmetic on the rays that are traced for it; those of the exact kernel are
-proven to be none.
+proven to be none. An error is what shows: a hole, a phantom, a hit that is displaced. Another object in the
+same place, such as one of two triangles that coincide, is none unless --identity is given.
 
 Examples:
   rayscale recommend model.obj
@@ -45,9 +47,8 @@ pub struct Recommend {
     /// Memory that structure and geometry copy may take, such as 64MiB
     #[arg(long, value_name = "SIZE", value_parser = size)]
     memory: Option<u64>,
-    /// Wrong answers that may be given in a million rays: missed, invented or of another object
-    #[arg(long, value_name = "PER MILLION", value_parser = per_million)]
-    max_error: Option<f64>,
+    #[command(flatten)]
+    limits: LimitOptions,
     /// Rays traced for each build; otherwise the build doesn't count
     #[arg(long, value_name = "N")]
     rays_per_build: Option<u64>,
@@ -89,7 +90,8 @@ impl Verb for Recommend {
         let rays = selection.rays([])?;
         let spec: SceneSpec = self.scene.parse()?;
         let scene = console.scene(&spec)?;
-        let choices = choices(&scene, self.max_error.is_some())?;
+        let limits = self.limits.limits();
+        let choices = choices(&scene, limits.any())?;
         let session = Session {
             scenes: vec![self.scene.clone()],
             rays,
@@ -99,17 +101,13 @@ impl Verb for Recommend {
             ..Session::default()
         };
         console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
-        let wish = Wish {
-            memory: self.memory,
-            max_error: self.max_error.map(|rate| rate / 1e6),
-            rays_per_build: self.rays_per_build.map(|n| n as f64),
-        };
+        let wish =
+            Wish { memory: self.memory, limits, rays_per_build: self.rays_per_build.map(|n| n as f64) };
         let steps = session.rays.len() * session.options.passes();
         let mut progress = Progress::new(console, steps, "measuring");
         let (record, errors) = console.in_pool(1, || {
             let record = run(&session, &choices, begin(&session, &choices), &mut progress, |_| {});
-            let errors =
-                if self.max_error.is_some() { errors(&session, &scene, &choices) } else { ErrorRates::new() };
+            let errors = if limits.any() { errors(&session, &scene, &choices) } else { ErrorRates::new() };
             (record, errors)
         })?;
         progress.finish();
@@ -159,7 +157,8 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
 fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
     let mut all = ErrorRates::new();
     let workloads = workload::make(scene, &session.rays, session.size, session.seed).made;
-    let mut examiner = Examiner::new(scene, &workload::batches(&workloads), JUDGED * workloads.len());
+    let mut examiner =
+        Examiner::new(scene, &workload::batches(&workloads), JUDGED * workloads.len(), Tolerance::VISIBLE);
     let mut enter = |answerer: Answerer, rates: Vec<ErrorRate>| {
         all.extend(workloads.iter().zip(rates).map(|(w, rate)| ((answerer.clone(), w.id.to_string()), rate)));
     };
@@ -167,8 +166,8 @@ fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
         enter(
             Answerer::Kernel(kernel),
             match kernel {
-                KernelId::Exact => vec![ErrorRate::NONE; workloads.len()],
-                _ => examiner.examine(kernel).iter().map(ErrorRate::seen).collect(),
+                KernelId::Exact => vec![ErrorRate::Proven; workloads.len()],
+                _ => examiner.examine(kernel).into_iter().map(ErrorRate::Seen).collect(),
             },
         );
     }
@@ -177,7 +176,10 @@ fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
         // Whoever can't be built, or panics, has said so where it was measured.
         let Ok(accel) = guarded_build(choice, scene, &Need::GENERAL) else { continue };
         if let Ok(wrong) = guard("tracing", || examiner.examine_structure(accel.as_ref())) {
-            enter(Answerer::Structure(choice.spec.to_string()), wrong.iter().map(ErrorRate::seen).collect());
+            enter(
+                Answerer::Structure(choice.spec.to_string()),
+                wrong.into_iter().map(ErrorRate::Seen).collect(),
+            );
         }
     }
     all
@@ -188,10 +190,18 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
     let settings = |structure: &str| {
         record.structures.iter().find(|s| s.id == structure).map(|s| s.settings.clone()).unwrap_or_default()
     };
-    let head = ["    structure", "per ray", "build", "memory", "wrong answers"].map(str::to_owned);
+    let head = [
+        "    structure",
+        "per ray",
+        "build",
+        "memory",
+        if wish.limits.counted == Counted::Identity { "wrong answers" } else { "visible errors" },
+    ]
+    .map(str::to_owned);
     let mut lines = vec![head.to_vec()];
-    lines.extend(ranking.fitting.iter().zip(1..).map(|(c, place)| row(&format!("{place:>2}."), c, "")));
-    lines.extend(ranking.others.iter().map(|c| row(" – ", c, &format!("  ({})", c.misfits.join("; ")))));
+    lines.extend(ranking.fitting.iter().zip(1..).map(|(c, place)| row(&format!("{place:>2}."), c, wish, "")));
+    lines
+        .extend(ranking.others.iter().map(|c| row(" – ", c, wish, &format!("  ({})", c.misfits.join("; ")))));
     text.push_str(&in_columns(&lines, &[false, true, true, true, false]));
     text.push('\n');
     for (structure, reason) in &ranking.unfit {
@@ -211,11 +221,14 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
                     format!("; {next} takes {ratio:.2} times as long")
                 }
             });
-            let open = wish.max_error.zip(best.error).filter(|(limit, error)| error.bound > *limit);
-            let open = open.map_or(String::new(), |(_, error)| {
+            let counted = wish.limits.counted;
+            let open = wish.limits.errors.zip(best.error);
+            let open = open.map(|(limit, error)| (limit / 1e6, error.bound(counted)));
+            let open = open.filter(|(limit, bound)| bound > limit).map_or(String::new(), |(_, bound)| {
                 format!(
-                    "\nThe rays looked at do not rule out that {} of its answers are wrong; only the kernel `exact` is proven.",
-                    recommend::per_million(error.bound)
+                    "\nThe rays looked at do not rule out that {} of its answers are {}; only the kernel `exact` is proven.",
+                    recommend::per_million(bound),
+                    counted.words()
                 )
             });
             write!(
@@ -239,11 +252,13 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
 }
 
 /// A candidate's line in columns, with its place before and a remark behind.
-fn row(place: &str, c: &Candidate, remark: &str) -> Vec<String> {
+fn row(place: &str, c: &Candidate, wish: &Wish, remark: &str) -> Vec<String> {
     let error = match c.error {
-        Some(ErrorRate::NONE) => "none".to_owned(),
-        Some(ErrorRate { share: 0.0, .. }) => "none seen".to_owned(),
-        Some(ErrorRate { share, .. }) => recommend::per_million(share),
+        Some(ErrorRate::Proven) => "none".to_owned(),
+        Some(error) => match error.share(wish.limits.counted) {
+            0.0 => "none seen".to_owned(),
+            share => recommend::per_million(share),
+        },
         None => String::new(),
     };
     let (ns, build) = (units::time(c.ns), units::time(c.build_ns));

@@ -57,8 +57,8 @@ fn into_text(from: &Path, record: &Record, path: &Path) -> Result<(), Error> {
     let command = format!("rayscale report {} --splice {}", from.display(), path.display());
     let text = splice(&text, &summary(record, &command)).map_err(|error| {
         let todo = match error {
-            SpliceError::Markers => "put the two lines in",
-            SpliceError::Inside => "take the lines out of the record",
+            SpliceError::Markers(..) => "put the two lines in",
+            SpliceError::Inside(..) => "take the lines out of the record",
         };
         Error::usage(format!("{}: {error}", path.display()), todo)
     })?;

@@ -8,65 +8,71 @@ use crate::verb::{Outcome, Verb, command_line};
 use clap::Args;
 use harness::measure::Options;
 use harness::output::write_whole;
-use harness::trade::{self, Plan, TIMED};
-use report::table::code;
+use report::{TRADE, splice_at};
+use scenes::rays::RaysId;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use trade::{ORDINARY, Plan, TIMED};
 
 /// Compare time and memory with errors found by exact arithmetic
 ///
-/// Every structure and kernel answers the same rays, ordinary ones and such as hunt for errors; integers decide what is
-/// missed, invented or the wrong object, and how far t is off. Writes a record, a table and a plot.
+/// Every structure and kernel answers the same rays, ordinary ones and, counted apart, such as hunt for errors; integers decide
+/// what is a hole, a phantom, displaced or another object, and how far hits are off. Writes a record, a page that begins with
+/// conclusions, and plots. Judging uses all cores, times are taken on one.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   rayscale trade --out trade
-  rayscale trade --scene sponza --scene bumps-20k --structure ssm:kernel=exact --structure embree --out trade")]
+  rayscale trade --scene sponza --scene bumps-20k --structure ssm:kernel=exact --structure embree --out trade
+  rayscale trade --scene sponza --curve sponza --extremes 4000 --out trade
+  rayscale trade --record trade/trade.json --out trade --splice README.md")]
 pub struct Trade {
     #[command(flatten)]
     selection: Selection,
-    /// Rows and columns of each set of rays that is judged
+    /// Rows and columns of each ordinary set that is judged; there are four unless --rays says which
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=4096))]
     judged: u32,
+    /// Rows and columns of each set that hunts for errors
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    hunting: u32,
+    /// A scene of those compared for the curve of precision and for rays that leave surfaces; may be repeated
+    #[arg(long, value_name = "SCENE", value_delimiter = ';')]
+    curve: Vec<String>,
+    /// Rays for each extreme; no extremes otherwise
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    extremes: usize,
+    /// Triangles of the largest extreme; none such otherwise
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "extremes")]
+    largest: usize,
     /// Most samples of a time
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=10_000))]
     rounds: u16,
-    /// Folder for trade.json, trade.md and trade.svg
+    /// Folder for trade.json, trade.md, trade.svg and curve.svg
     #[arg(short, long, value_name = "FOLDER")]
     out: PathBuf,
+    /// Compare nothing: make the page and the plots from this record
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["curve", "extremes", "scenes", "structures"])]
+    record: Option<PathBuf>,
+    /// Write the summary and the chart between the markers of this text too
+    #[arg(long, value_name = "FILE")]
+    splice: Option<PathBuf>,
 }
 
 impl Verb for Trade {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
-        let choices = self.selection.structures(&trade::defaults())?;
-        let defaults = Options::default();
-        let rounds = usize::from(self.rounds);
-        let plan = Plan {
-            scenes: self.selection.scenes()?,
-            timed: self.selection.rays(TIMED)?,
-            size: self.selection.size.unwrap_or(128),
-            judged: self.judged,
-            seed: self.selection.seed,
-            options: Options {
-                threads: console.threads().unwrap_or(1),
-                rounds,
-                least_rounds: defaults.least_rounds.min(rounds),
-                ..defaults
-            },
-            command: command_line(),
-        };
         std::fs::create_dir_all(&self.out).map_err(|error| Error::io(self.out.display(), error))?;
-        let mut progress = Progress::new(console, plan.scenes.len() * plan.timed.len(), "measuring");
-        let trade = console.in_pool(1, || trade::run(&plan, &choices, &mut progress))??;
-        progress.finish();
-        let table = report::trade::table(&trade.rows);
-        let json = serde_json::to_string_pretty(&trade).map_err(io::Error::other);
-        let json = json.map_err(|error| Error::io("trade.json", error))?;
-        let text =
-            format!("# Accuracy and its cost\n\nMade by {}.\n\n{}", code(&trade.command), table.markdown());
-        self.write("trade.json", &json)?;
-        self.write("trade.md", &text)?;
+        let trade = match &self.record {
+            Some(path) => trade::Trade::read(path)?,
+            None => self.study(console)?,
+        };
+        self.write("trade.md", &report::trade::page(&trade))?;
         self.write("trade.svg", &report::trade::svg(&trade))?;
-        console.result(&trade, table.text())?;
+        if let Some(curve) = report::trade::curve_svg(&trade) {
+            self.write("curve.svg", &curve)?;
+        }
+        if let Some(path) = &self.splice {
+            self.splice_into(&trade, path)?;
+        }
+        console.result(&trade, report::trade::ordinary(&trade.rows).text())?;
         let failed = trade.rows.iter().filter_map(|row| Some((row, row.outcome.reason()?)));
         let lines: Vec<String> =
             failed.map(|(row, reason)| format!("{} {}: {reason}", row.scene, row.structure)).collect();
@@ -76,6 +82,68 @@ impl Verb for Trade {
 }
 
 impl Trade {
+    fn study(&self, console: &Console) -> Result<trade::Trade, Error> {
+        let choices = self.selection.structures(&trade::defaults())?;
+        let rounds = usize::from(self.rounds);
+        let scenes = self.selection.scenes()?;
+        if let Some(other) = self.curve.iter().find(|scene| !scenes.contains(scene)) {
+            let todo = format!("add --scene {other}, or leave it out");
+            return Err(Error::usage(format!("--curve {other}: no scene that is compared"), todo));
+        }
+        let given = !self.selection.rays.is_empty();
+        let defaults = Options::default();
+        let ordinary = self.selection.rays(ORDINARY)?;
+        let plan = Plan {
+            scenes,
+            timed: self.selection.rays(TIMED)?,
+            size: self.selection.size.unwrap_or(128),
+            ordinary: ordinary.into_iter().filter(|id: &RaysId| !given || !id.is_stress()).collect(),
+            judged: self.judged,
+            hunting: self.hunting,
+            curve: self.curve.clone(),
+            extremes: self.extremes,
+            largest: self.largest,
+            judges: std::thread::available_parallelism().map_or(1, usize::from),
+            seed: self.selection.seed,
+            options: Options {
+                threads: console.threads().unwrap_or(1),
+                rounds,
+                least_rounds: defaults.least_rounds.min(rounds),
+                ..defaults
+            },
+            command: command_line(),
+        };
+        let steps = plan.scenes.len() * plan.timed.len() * plan.options.passes();
+        let mut progress = Progress::new(console, steps, "measuring");
+        let mut kept = Ok(());
+        let keep = |trade: &trade::Trade| {
+            // What is known by now is not lost if the rest fails.
+            kept = self.write_record(trade);
+        };
+        let trade = console.in_pool(1, || trade::run(&plan, &choices, &mut progress, keep))??;
+        progress.finish();
+        kept?;
+        self.write_record(&trade)?;
+        Ok(trade)
+    }
+
+    fn write_record(&self, trade: &trade::Trade) -> Result<(), Error> {
+        let json = serde_json::to_string_pretty(trade).map_err(io::Error::other);
+        self.write("trade.json", &json.map_err(|error| Error::io("trade.json", error))?)
+    }
+
+    fn splice_into(&self, trade: &trade::Trade, path: &Path) -> Result<(), Error> {
+        let text = std::fs::read_to_string(path).map_err(|error| Error::io(path.display(), error))?;
+        let chart = self.out.join("curve.svg").display().to_string();
+        let Some(summary) = report::trade::summary(trade, &chart) else {
+            return Err(Error::usage("a record of old has no conclusions", "make a new one"));
+        };
+        let text = splice_at(&text, &summary, TRADE)
+            .map_err(|error| Error::usage(format!("{}: {error}", path.display()), "put the two lines in"))?;
+        let written: Result<(), io::Error> = write_whole(path, |out| out.write_all(text.as_bytes()));
+        written.map_err(|error| Error::io(path.display(), error))
+    }
+
     fn write(&self, name: &str, text: &str) -> Result<(), Error> {
         let path: &Path = &self.out.join(name);
         let written: Result<(), io::Error> = write_whole(path, |out| out.write_all(text.as_bytes()));

@@ -121,8 +121,15 @@ pub fn large() -> Record {
 
 fn cell(scene: &str, objects: u64, rays: &str, structure: &str, (ns, bytes): (f64, f64)) -> Cell {
     let is_foreign = structure.starts_with("obvhs") || structure.starts_with("embree");
-    let errors =
-        Errors { missed: 3, false_hits: 1, wrong_object: 7, t_ulp_p99: 2.0, t_ulp_max: 1e6, rays_exact: 507 };
+    let errors = Errors {
+        missed: 3,
+        false_hits: 1,
+        wrong_object: 7,
+        kinds: None,
+        t_ulp_p99: 2.0,
+        t_ulp_max: 1e6,
+        rays_exact: 507,
+    };
     let mut cell = Cell {
         scene: scene.into(),
         rays: rays.into(),

@@ -65,8 +65,8 @@ fn a_kernel_left_to_the_suite_is_chosen_by_the_errors_allowed() {
     assert_eq!(proven, "exact");
     assert!(why.contains("proven"), "{why}");
     let (cheapest, why) = kernel(&["--kernel", "auto", "--max-error", "1000000"]);
-    assert_eq!(cheapest, "moller-trumbore");
-    assert!(why.contains("on all 4 rays"), "{why}");
+    // Which is the cheapest is a matter of time, but not that its time was taken.
+    assert!(why.contains(&format!("{cheapest} takes")), "{why}");
     assert_eq!(kernel(&["--kernel", "exact"]).1, "");
     trace(&folder, &["--structure", "ssm", "--max-error", "1"]).code(2);
     trace(&folder, &["--structure", "ssm", "--kernel", "auto", "--max-error", "-1"]).code(2);
@@ -133,4 +133,26 @@ fn hits_do_not_replace_the_rays() {
         rayscale(["trace", "--scene", "scene.obj", "--rays", "rays.csv", "--out", "./rays.csv"]);
     command.current_dir(folder.folder()).args(["--structure", "brute"]).assert().code(2);
     assert_eq!(folder.read("rays.csv"), RAYS);
+}
+
+/// Two triangles in each place: nothing more shows than on one, and the same is recommended to be accurate enough.
+#[test]
+fn doubled_triangles_are_no_errors_unless_it_matters_which_is_hit() {
+    let folder = folder();
+    let doubled = folder.read("scene.obj");
+    let faces: String =
+        doubled.lines().filter(|line| line.starts_with('f')).map(|line| format!("{line}\n")).collect();
+    std::fs::write(folder.folder().join("doubled.obj"), format!("{doubled}\n{faces}")).unwrap();
+    let fitting = |scene: &str, more: &[&str]| {
+        let mut command = rayscale(["recommend", scene, "--rays", "random", "--max-error", "100", "--json"]);
+        let out =
+            command.args(more).current_dir(folder.folder()).assert().success().get_output().stdout.clone();
+        let facts: serde_json::Value = serde_json::from_slice(&out).expect("JSON");
+        let list = facts["recommendation"]["fitting"].as_array().unwrap().clone();
+        let mut names: Vec<String> =
+            list.iter().map(|c| c["structure"].as_str().unwrap().to_owned()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(fitting("scene.obj", &[]), fitting("doubled.obj", &[]));
 }

@@ -12,6 +12,7 @@ pub fn full() -> Record {
         missed: 1,
         false_hits: 2,
         wrong_object: 3,
+        kinds: None,
         t_ulp_p99: 1.5,
         t_ulp_max: 4.0,
         rays_exact: 9,

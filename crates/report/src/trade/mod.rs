@@ -1,7 +1,11 @@
-//! What accuracy costs, as a table and as a plot.
+//! What accuracy costs, as conclusions, tables and plots.
 
+mod conclusions;
+mod page;
 mod plot;
 mod table;
 
-pub use plot::svg;
-pub use table::table;
+pub use conclusions::{Conclusions, conclusions};
+pub use page::{extremes, page, summary};
+pub use plot::{curve_svg, svg};
+pub use table::{hunting, ordinary};

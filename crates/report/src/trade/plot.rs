@@ -1,11 +1,12 @@
 //! The plot: ns per ray against errors in a million rays, a chart for each scene.
 
 use crate::chart::palette::{self, Shape};
-use crate::chart::{Axis, Mark, Plot, Sheet, Sign};
+use crate::chart::{Axis, Line, Mark, Plot, Sheet, Sign};
 use harness::record::{Intersector, id_of};
-use harness::trade::{Row, Trade};
 use harness::units::{figure, short};
 use primitives::KernelId;
+use trade::curve::Precise;
+use trade::{Row, Trade};
 
 const COLUMNS: usize = 3;
 const SIZE: (f64, f64) = (330.0, 240.0);
@@ -93,10 +94,102 @@ fn plot(scene: &str, rows: &[Row], families: &[&str]) -> Plot {
         horizontal: Axis::new("ns per ray →", points.iter().map(|(_, (ns, _))| *ns), short),
         vertical: Axis {
             ticks: &[NONE, 1.0, 1e2, 1e4, 1e6],
-            ..Axis::new("↑ wrong answers in a million rays", [], errors)
+            ..Axis::new("↑ visible errors in a million ordinary rays", [], errors)
         },
         lines: Vec::new(),
         marks: points.iter().map(mark).collect(),
+    }
+}
+
+/// Colours of the curve's structures, in the order in which they appear.
+fn structures(curve: &[Precise]) -> Vec<&str> {
+    let mut all: Vec<&str> = Vec::new();
+    for row in curve {
+        if !all.contains(&row.structure.as_str()) {
+            all.push(&row.structure);
+        }
+    }
+    all
+}
+
+/// The curve of precision as SVG: bytes a triangle against visible errors, a chart for each scene; none without a curve.
+pub fn curve_svg(trade: &Trade) -> Option<String> {
+    let families = structures(&trade.curve);
+    let mut scenes: Vec<&str> = Vec::new();
+    for row in &trade.curve {
+        if !scenes.contains(&row.scene.as_str()) {
+            scenes.push(&row.scene);
+        }
+    }
+    if scenes.is_empty() {
+        return None;
+    }
+    let sign = |(i, family): (usize, &&str)| Sign {
+        shape: Some(Shape::Circle),
+        class: format!("mark s{i}"),
+        name: (*family).to_owned(),
+    };
+    let shapes = SORTS.iter().map(|(sort, shape)| Sign {
+        shape: Some(*shape),
+        class: "crossing".into(),
+        name: (*sort).to_owned(),
+    });
+    let sheet = Sheet {
+        columns: 2,
+        plots: scenes.iter().map(|scene| curve_plot(scene, &trade.curve, &families)).collect(),
+        key: vec![families.iter().enumerate().map(sign).collect(), shapes.collect()],
+        note: "numbers: bits of a coordinate; filled: nothing else is as small, as fast and as right".into(),
+        colours: families.iter().map(|family| palette::of(family).light).collect(),
+    };
+    Some(sheet.file())
+}
+
+/// Sorts of precision with their shapes; the last for all others.
+const SORTS: [(&str, Shape); 4] = [
+    ("lattice over the scene", Shape::Circle),
+    ("lattice over a block", Shape::Square),
+    ("grown", Shape::Triangle),
+    ("floats, boxes", Shape::Diamond),
+];
+
+fn sort(row: &Precise) -> usize {
+    let name = row.precision.as_str();
+    SORTS.len()
+        - 1
+        - [name.ends_with("grown"), name.ends_with("over a block"), name.ends_with("over the scene")]
+            .iter()
+            .position(|is| *is)
+            .map_or(0, |i| i + 1)
+}
+
+fn curve_plot(scene: &str, curve: &[Precise], families: &[&str]) -> Plot {
+    let here: Vec<&Precise> = curve.iter().filter(|row| row.scene == scene).collect();
+    let value = |row: &Precise| (row.bytes_per_triangle, row.errors.visible_per_million().max(NONE));
+    let class = |row: &Precise| families.iter().position(|known| *known == row.structure).unwrap_or(0);
+    let mark = |row: &&Precise| Mark {
+        value: value(row),
+        shape: SORTS[sort(row)].1,
+        class: format!("mark {}s{}", if row.front { "" } else { "hollow " }, class(row)),
+        tip: format!("{}, {}: {} B", row.structure, row.precision, figure(row.bytes_per_triangle)),
+        label: row.bits.filter(|_| sort(row) == 0 && class(row) == 0).map(|bits| bits.to_string()),
+    };
+    let line = |family: &usize| {
+        let mut along: Vec<(f64, f64)> =
+            here.iter().filter(|row| class(row) == *family && sort(row) == 0).map(|row| value(row)).collect();
+        along.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Line::new(along, "grid")
+    };
+    let errors = |rate: f64| if rate <= NONE { "none".to_owned() } else { short(rate) };
+    Plot {
+        name: scene.to_owned(),
+        size: (420.0, 280.0),
+        horizontal: Axis::new("bytes a triangle →", here.iter().map(|row| row.bytes_per_triangle), short),
+        vertical: Axis {
+            ticks: &[NONE, 1.0, 1e2, 1e4, 1e6],
+            ..Axis::new("↑ visible errors in a million ordinary rays", [], errors)
+        },
+        lines: (0..families.len()).map(|family| line(&family)).collect(),
+        marks: here.iter().map(mark).collect(),
     }
 }
 
@@ -106,10 +199,16 @@ mod tests {
     use crate::chart::width;
     use harness::machine::Machine;
     use harness::record::{Outcome, SceneEntry, Suite};
-    use harness::trade::Accuracy;
+    use judge::Tolerance;
+    use trade::Accuracy;
 
     fn trade(scenes: usize, structures: usize) -> Trade {
         let mut trade = Trade {
+            format: 1,
+            tolerance: Tolerance::VISIBLE,
+            curve: Vec::new(),
+            extremes: Vec::new(),
+            leaving: Vec::new(),
             command: String::new(),
             suite: Suite::this(),
             machine: Machine::here(),
@@ -127,6 +226,9 @@ mod tests {
                     kernel_reason: String::new(),
                     ns_per_ray: Some(3.0 * 7f64.powi(structure as i32 % 6)),
                     bytes: None,
+                    ordinary: None,
+                    hunting: None,
+                    sets: Vec::new(),
                     accuracy: Some(Accuracy { rays: 1000, missed: structure as u64, ..Accuracy::default() }),
                     front: structure == 0,
                     outcome: Outcome::Measured,

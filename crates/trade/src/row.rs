@@ -1,12 +1,12 @@
 //! Rows of the trade: time, memory and errors side by side.
 
-use super::Accuracy;
-use crate::front::front;
-use crate::record::{Intersector, Outcome};
-use serde::Serialize;
+use crate::{Accuracy, Judged};
+use harness::front::front;
+use harness::record::{Intersector, Outcome};
+use serde::{Deserialize, Serialize};
 
 /// A structure with a kernel on a scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Scene.
     pub scene: String,
@@ -15,15 +15,25 @@ pub struct Row {
     /// Ray-triangle intersector.
     pub kernel: Intersector,
     /// Why this kernel was chosen, where that was left to the suite.
-    #[serde(skip_serializing_if = "String::is_empty")]
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kernel_reason: String,
     /// Geometric mean over the timed ray sets, unless one of them failed.
     pub ns_per_ray: Option<f64>,
     /// Memory of structure and geometry copy.
     pub bytes: Option<u64>,
-    /// Errors; none where nothing could be judged.
+    /// Errors on ordinary rays, all sets together; none where nothing could be judged, and in records of old.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ordinary: Option<Judged>,
+    /// Errors on rays that hunt for errors, likewise; never mixed with the others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hunting: Option<Judged>,
+    /// The same set by set, ordinary ones first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sets: Vec<Judged>,
+    /// Errors as records of old have them, of a mixture of ordinary and hunting sets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
-    /// Whether no other row of the scene is as fast and as right, and better in one of them.
+    /// Whether no other row of the scene is as fast and as right on ordinary rays, and better in one of them.
     pub front: bool,
     /// Whether its times and errors are known, and why not.
     #[serde(flatten)]
@@ -31,9 +41,20 @@ pub struct Row {
 }
 
 impl Row {
-    /// ns per ray and errors in a million rays, where both are known.
+    /// ns per ray and errors in a million rays, where both are known: visible errors on ordinary rays, or what a record of old
+    /// has.
     pub fn point(&self) -> Option<(f64, f64)> {
-        Some((self.ns_per_ray?, self.accuracy.as_ref()?.errors_per_million()))
+        let errors = match (&self.ordinary, &self.accuracy) {
+            (Some(ordinary), _) => ordinary.visible_per_million(),
+            (None, Some(accuracy)) => accuracy.errors_per_million(),
+            (None, None) => return None,
+        };
+        Some((self.ns_per_ray?, errors))
+    }
+
+    /// Whether its kernel is the exact one.
+    pub fn is_exact(&self) -> bool {
+        self.kernel == Intersector::BuiltIn(primitives::KernelId::Exact)
     }
 }
 
@@ -60,6 +81,9 @@ mod tests {
             kernel_reason: String::new(),
             ns_per_ray: Some(ns),
             bytes: None,
+            ordinary: None,
+            hunting: None,
+            sets: Vec::new(),
             accuracy: Some(Accuracy { rays: 100, missed, ..Accuracy::default() }),
             front: false,
             outcome: Outcome::Measured,
