@@ -2,9 +2,9 @@
 
 use std::process::{Command, ExitCode};
 
-use crate::checks::{CORE, tests};
+use crate::checks::tests;
 use crate::host::apt_install;
-use crate::places::Places;
+use crate::places::{CORE, Places};
 use crate::shell::{cargo, output, there_is};
 use crate::tally::Tally;
 

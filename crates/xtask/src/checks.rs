@@ -3,22 +3,11 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Command, ExitCode, Stdio};
 
-use crate::places::Places;
+use crate::places::{CORE, Places};
 use crate::setup::Ready;
 use crate::shell::{cargo, output};
 use crate::structure;
 use crate::tally::Tally;
-
-/// What must build and pass on a machine without Embree or any C++.
-pub const CORE: [&str; 7] = [
-    "rayscale-accel",
-    "rayscale-lanes",
-    "rayscale-primitives",
-    "rayscale-oracle",
-    "rayscale-baselines",
-    "bmssm",
-    "rayscale-ssm",
-];
 
 /// The packages that link with Embree.
 pub const ADAPTER: [&str; 2] = ["rayscale-adapter-embree", "embree4-sys"];

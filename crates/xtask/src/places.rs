@@ -1,6 +1,17 @@
-//! Where things lie inside the checkout.
+//! Which packages there are, and where things lie inside the checkout.
 
 use std::path::{Path, PathBuf};
+
+/// What must build and pass on a machine without Embree or any C++.
+pub const CORE: [&str; 7] = [
+    "rayscale-accel",
+    "rayscale-lanes",
+    "rayscale-primitives",
+    "rayscale-oracle",
+    "rayscale-baselines",
+    "bmssm",
+    "rayscale-ssm",
+];
 
 /// The checkout and the folder `.setup` in it, which git ignores.
 pub struct Places {

@@ -1,5 +1,6 @@
 //! What others use: structures for rays of any kind and for one image, and how they are built.
 
+mod build;
 mod camera;
 mod image;
 mod options;

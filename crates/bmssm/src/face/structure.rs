@@ -1,8 +1,7 @@
 //! A structure for rays of any kind.
 
-use crate::{Camera, Image, Options};
 use accel::input::traceable;
-use accel::{Accel, BuildError, Footprint, Hit, Objects, Position, Ray, RaySet};
+use accel::{Accel, Footprint, Hit, Ray, RaySet};
 use std::fmt;
 
 /// A scene that any ray can be traced through.
@@ -12,42 +11,6 @@ use std::fmt;
 pub struct Bmssm<'s>(Box<dyn Accel + 's>);
 
 impl<'s> Bmssm<'s> {
-    /// Builds for a mesh: positions as `[f32; 3]` or [`Vec3`](crate::Vec3), and three indices into them for each
-    /// triangle.
-    ///
-    /// # Errors
-    /// [`BuildError::Input`] for coordinates that aren't finite, indices out of range and meshes that reach too far,
-    /// [`BuildError::TooLarge`] where memory doesn't suffice.
-    pub fn build<P: Position>(positions: &'s [P], triangles: &'s [[u32; 3]]) -> Result<Self, BuildError> {
-        Options::default().build(positions, triangles)
-    }
-
-    /// Builds for objects of any kind.
-    ///
-    /// # Errors
-    /// [`BuildError::Input`] for boxes that are empty or not finite or reach too far, [`BuildError::TooLarge`] where
-    /// memory doesn't suffice.
-    pub fn build_objects<O: Objects>(objects: &'s O) -> Result<Self, BuildError> {
-        Options::default().build_objects(objects)
-    }
-
-    /// Builds for the rays of one image of a mesh and no others, in less time and memory.
-    ///
-    /// # Errors
-    /// Those of [`Bmssm::build`].
-    pub fn for_image<P: Position>(
-        camera: &Camera,
-        positions: &'s [P],
-        triangles: &'s [[u32; 3]],
-    ) -> Result<Image<'s>, BuildError> {
-        Options::default().for_image(camera, positions, triangles)
-    }
-
-    /// Settings other than the default.
-    pub fn options() -> Options {
-        Options::default()
-    }
-
     pub(super) fn new(built: Box<dyn Accel + 's>) -> Self {
         Self(built)
     }

@@ -4,8 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::checks::CORE;
-use crate::places::{Places, write};
+use crate::places::{CORE, Places, write};
 use crate::shell::{cargo, output};
 
 /// A program of at most ten lines that traces a mesh.

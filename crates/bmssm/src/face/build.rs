@@ -1,0 +1,107 @@
+//! From a mesh or objects to a structure.
+
+use super::{Bmssm, Camera, Image, Options};
+use crate::fast::Build;
+use accel::{Accel, BuildError, MeshRef, Need, Objects, Position};
+use primitives::{Guarded, WithObjects, with_triangles};
+
+impl<'s> Bmssm<'s> {
+    /// Builds for a mesh: positions as `[f32; 3]` or [`Vec3`](crate::Vec3), and three indices into them for each
+    /// triangle.
+    ///
+    /// # Errors
+    /// [`BuildError::Input`] for coordinates that aren't finite, indices out of range and meshes that reach too far,
+    /// [`BuildError::TooLarge`] where memory doesn't suffice.
+    pub fn build<P: Position>(positions: &'s [P], triangles: &'s [[u32; 3]]) -> Result<Self, BuildError> {
+        Options::default().build(positions, triangles)
+    }
+
+    /// Builds for objects of any kind.
+    ///
+    /// # Errors
+    /// [`BuildError::Input`] for boxes that are empty or not finite or reach too far, [`BuildError::TooLarge`] where
+    /// memory doesn't suffice.
+    pub fn build_objects<O: Objects>(objects: &'s O) -> Result<Self, BuildError> {
+        Options::default().build_objects(objects)
+    }
+
+    /// Builds for the rays of one image of a mesh and no others, in less time and memory.
+    ///
+    /// # Errors
+    /// Those of [`Bmssm::build`].
+    pub fn for_image<P: Position>(
+        camera: &Camera,
+        positions: &'s [P],
+        triangles: &'s [[u32; 3]],
+    ) -> Result<Image<'s>, BuildError> {
+        Options::default().for_image(camera, positions, triangles)
+    }
+
+    /// Settings other than the default.
+    pub fn options() -> Options {
+        Options::default()
+    }
+}
+
+impl Options {
+    /// See [`Bmssm::build`].
+    ///
+    /// # Errors
+    /// Those of [`Bmssm::build`].
+    pub fn build<'s, P: Position>(
+        &self,
+        positions: &'s [P],
+        triangles: &'s [[u32; 3]],
+    ) -> Result<Bmssm<'s>, BuildError> {
+        self.mesh(positions, triangles, Need::GENERAL).map(Bmssm::new)
+    }
+
+    /// See [`Bmssm::build_objects`].
+    ///
+    /// # Errors
+    /// Those of [`Bmssm::build_objects`].
+    pub fn build_objects<'s, O: Objects>(&self, objects: &'s O) -> Result<Bmssm<'s>, BuildError> {
+        self.objects(objects, Need::GENERAL).map(Bmssm::new)
+    }
+
+    /// See [`Bmssm::for_image`].
+    ///
+    /// # Errors
+    /// Those of [`Bmssm::build`].
+    pub fn for_image<'s, P: Position>(
+        &self,
+        camera: &Camera,
+        positions: &'s [P],
+        triangles: &'s [[u32; 3]],
+    ) -> Result<Image<'s>, BuildError> {
+        let built = self.mesh(positions, triangles, Need::raster(*camera.raster()))?;
+        Ok(Image::new(built, *camera))
+    }
+
+    /// [`Bmssm::for_image`] for objects of any kind.
+    ///
+    /// # Errors
+    /// Those of [`Bmssm::build_objects`].
+    pub fn for_image_of_objects<'s, O: Objects>(
+        &self,
+        camera: &Camera,
+        objects: &'s O,
+    ) -> Result<Image<'s>, BuildError> {
+        let built = self.objects(objects, Need::raster(*camera.raster()))?;
+        Ok(Image::new(built, *camera))
+    }
+
+    fn mesh<'s, P: Position>(
+        &self,
+        positions: &'s [P],
+        triangles: &'s [[u32; 3]],
+        need: Need,
+    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+        let mesh = MeshRef::new(positions, triangles)?;
+        with_triangles(mesh, self.settings.kernel, Build { settings: self.settings, need })
+    }
+
+    fn objects<'s, O: Objects>(&self, objects: &'s O, need: Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        Build { settings: self.settings, need }.objects(Guarded::new(objects)?)
+    }
+}
