@@ -11,8 +11,8 @@ use bmssm::suite::general::{General, Settings};
 use harness::registry::{Choice, ChosenKernel, Entry};
 use harness::sweeps::{differences, leaks, oracle};
 use lanes::packet::{Lanes, Packet};
-use lanes::{Level, PackedObjects, Row, Simd};
-use primitives::kernel::{Immediate, Unprepared, Watertight};
+use lanes::{Level, PackedObjects, Simd};
+use primitives::kernel::{Floats, Immediate, Packed, Unprepared, Watertight};
 use primitives::{Kernel, KernelId, Triangles};
 use scenes::rays::RaysId;
 use std::sync::Arc;
@@ -31,8 +31,9 @@ fn without_edges<S: Simd>(s: S, lanes: Lanes<S>) -> Lanes<S> {
 
 impl Kernel for OpenEdges {
     const ID: KernelId = KernelId::Watertight;
-    type Prepared = Unprepared;
-    type Deferral = Immediate;
+    type Preparation = Unprepared;
+    type Search = Immediate;
+    type Storage = Floats;
     type One = <Watertight as Kernel>::One;
     type Many<S: Simd> = <Watertight as Kernel>::Many<S>;
 
@@ -44,19 +45,12 @@ impl Kernel for OpenEdges {
         Watertight::many(s, rays)
     }
 
-    fn triangles<S: Simd>(
-        s: S,
-        ray: &Self::One,
-        group: &[Row],
-        at: usize,
-        wanted: u32,
-        t_max: f32,
-    ) -> Lanes<S> {
-        without_edges(s, Watertight::triangles(s, ray, group, at, wanted, t_max))
+    fn triangles<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {
+        without_edges(s, Watertight::triangles(s, ray, packed, wanted, t_max))
     }
 
-    fn rays<S: Simd>(s: S, rays: &Self::Many<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        without_edges(s, Watertight::rays(s, rays, group, lane, t_max))
+    fn rays<S: Simd>(s: S, rays: &Self::Many<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        without_edges(s, Watertight::rays(s, rays, packed, t_max))
     }
 }
 

@@ -24,6 +24,15 @@ pub trait PackedObjects: Objects + Copy {
     }
 }
 
+/// What rays have in common, and what [`Blocks::prepare`] computed of it for 16 slots.
+#[derive(Clone, Copy, Debug)]
+pub struct Shared<'a> {
+    /// A point or a direction.
+    pub common: &'a Common,
+    /// [`Blocks::PREPARED_ROWS`] rows.
+    pub rows: &'a [Row],
+}
+
 /// Objects packed in blocks of 64 slots, tested by mask.
 pub trait Blocks: Send + Sync {
     /// One ray, prepared.
@@ -67,35 +76,18 @@ pub trait Blocks: Send + Sync {
         false
     }
 
-    /// Tests pairs of one of up to [`ROW`] rays and an object of `block`, of which none is deferred; there is an object in each
-    /// of these slots. `lanes` are the rays as a packet. With `any`, a ray is done with its first hit, whichever it is.
-    fn pairs<S: Simd>(
-        &self,
-        s: S,
-        block: usize,
-        pairs: &Pairs,
-        lanes: &Packet<S>,
-        any: bool,
-        best: &mut [Nearest; ROW],
-    ) {
-        let _ = any;
-        self.pairs_one_by_one(s, block, pairs, lanes, best);
+    /// Tests rays and objects in pairs and defers none of them; `best` has a place for each ray of the packet.
+    fn pairs<S: Simd>(&self, s: S, pairs: &Pairs<'_, S>, best: &mut [Nearest; ROW]) {
+        self.pairs_one_by_one(s, pairs, best);
     }
 
     /// [`Blocks::pairs`], each by [`Blocks::closest`].
     #[inline(always)]
-    fn pairs_one_by_one<S: Simd>(
-        &self,
-        s: S,
-        block: usize,
-        pairs: &Pairs,
-        lanes: &Packet<S>,
-        best: &mut [Nearest; ROW],
-    ) {
+    fn pairs_one_by_one<S: Simd>(&self, s: S, pairs: &Pairs<'_, S>, best: &mut [Nearest; ROW]) {
         for (ray, slot) in pairs.rays.iter().zip(pairs.slots).take(pairs.len) {
             let lane = usize::from(*ray);
-            let one = self.one(&lanes.ray(s, lane));
-            self.closest(s, block, 1 << slot, &one, &mut best[lane]);
+            let one = self.one(&pairs.packet.ray(s, lane));
+            self.closest(s, pairs.block, 1 << slot, &one, &mut best[lane]);
             self.resolve(&one, &mut best[lane]);
         }
     }
@@ -123,12 +115,11 @@ pub trait Blocks: Send + Sync {
         &self,
         s: S,
         slot: usize,
-        common: &Common,
-        rows: &[Row],
+        shared: Shared<'_>,
         rays: &Self::Many<S>,
         best: &mut NearestPacket<S>,
     ) {
-        let _ = (common, rows);
+        let _ = shared;
         self.packet(s, slot, rays, best);
     }
 

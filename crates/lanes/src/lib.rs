@@ -7,7 +7,7 @@ mod one_by_one;
 pub mod packet;
 mod simd;
 
-pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects};
+pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Shared};
 pub use ids::Ids;
 pub use one_by_one::OneByOne;
 pub use simd::path;

@@ -136,16 +136,22 @@ impl RayRows {
     }
 }
 
-/// Rays and objects to be tested with each other. There are as many of both as is a multiple of [`ROW`], but only the first
-/// `len` count.
-#[derive(Clone, Copy, Debug)]
-pub struct Pairs<'a> {
-    /// Places of rays among those given with the pairs.
+/// Rays and objects of one block to be tested with each other. There are as many places of both as is a multiple of
+/// [`ROW`], but only the first `len` count.
+#[derive(Clone, Copy)]
+pub struct Pairs<'a, S: Simd> {
+    /// The block that holds the objects.
+    pub block: usize,
+    /// The rays.
+    pub packet: &'a Packet<S>,
+    /// Places of rays in the packet.
     pub rays: &'a [u8],
-    /// Places of objects in their block.
+    /// Places of objects in their block; there is an object in each.
     pub slots: &'a [u8],
     /// How many pairs there are.
     pub len: usize,
+    /// Whether a ray is done with its first hit, whichever it is.
+    pub any: bool,
 }
 
 /// A vector in all lanes.

@@ -7,9 +7,11 @@ mod guarded;
 pub mod kernel;
 mod objects;
 mod triangles;
+mod with_kernel;
 
 pub use boxes::Boxes;
 pub use guarded::Guarded;
-pub use kernel::{Kernel, KernelId, WithKernel};
+pub use kernel::{Kernel, KernelId};
 pub use objects::{WithObjects, with_objects, with_triangles};
-pub use triangles::{TriangleBlocks, Triangles};
+pub use triangles::{TriangleBlocks, TriangleKernel, Triangles};
+pub use with_kernel::WithKernel;

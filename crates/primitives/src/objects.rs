@@ -1,6 +1,6 @@
 //! The objects of a scene as a type.
 
-use crate::{Boxes, Kernel, KernelId, Triangles, WithKernel};
+use crate::{Boxes, KernelId, TriangleKernel, Triangles, WithKernel};
 use accel::{Geometry, MeshRef, Scene};
 use lanes::PackedObjects;
 
@@ -25,7 +25,7 @@ pub fn with_triangles<'s, W: WithObjects<'s>>(mesh: MeshRef<'s>, kernel: KernelI
     struct OfMesh<'s, W>(MeshRef<'s>, W);
     impl<'s, W: WithObjects<'s>> WithKernel for OfMesh<'s, W> {
         type Out = W::Out;
-        fn kernel<K: Kernel>(self) -> W::Out {
+        fn kernel<K: TriangleKernel>(self) -> W::Out {
             self.1.objects(Triangles::<K>::new(self.0))
         }
     }

@@ -291,8 +291,15 @@ impl<O: PackedObjects> General<O> {
                 for (nearest, id) in nearest.iter_mut().zip(ids) {
                     *nearest = best[usize::from(*id)];
                 }
-                let pairs = Pairs { rays: pair_rays, slots: pair_slots, len: pairs };
-                self.objects.pairs(s, block, &pairs, &packet, ANY, &mut nearest);
+                let pairs = Pairs {
+                    block,
+                    packet: &packet,
+                    rays: pair_rays,
+                    slots: pair_slots,
+                    len: pairs,
+                    any: ANY,
+                };
+                self.objects.pairs(s, &pairs, &mut nearest);
                 for (lane, (nearest, id)) in nearest.iter().zip(ids).enumerate() {
                     let id = usize::from(*id);
                     if nearest.object != best[id].object {

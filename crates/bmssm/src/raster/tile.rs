@@ -5,7 +5,7 @@ use super::{RasterMaps, THICKNESS};
 use accel::parallel::map_chunks;
 use accel::{Common, Count, Counters, Hit, Nearest, NoCount};
 use lanes::packet::{NearestPacket, Packet};
-use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Simd, Task};
+use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Shared, Simd, Task};
 use std::ops::Range;
 
 /// Pixels where two slices meet.
@@ -237,11 +237,12 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                     *prepared |= 1 << group;
                     maps.geometry.prepare(s, first, common, rows);
                 }
+                let shared = Shared { common, rows };
                 count.tests(u64::from(bits.count_ones()));
                 while bits != 0 {
                     let slot = first + bits.trailing_zeros() as usize;
                     bits &= bits - 1;
-                    maps.geometry.packet_prepared(s, slot, common, rows, rays, &mut best);
+                    maps.geometry.packet_prepared(s, slot, shared, rays, &mut best);
                 }
             }
             self.best[packet] = best;

@@ -2,7 +2,8 @@
 //! Journal of Computer Graphics Techniques 5(3), 2016: each triangle stores the affine map that takes
 //! it to the unit triangle, so that a test is a few products and one division.
 
-use super::{Corners, Immediate, Kernel, KernelId, Unprepared, dot3};
+use super::packed::{load3, splat_row3};
+use super::{Corners, Floats, Immediate, Kernel, KernelId, Packed, Unprepared, dot3};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes};
 use lanes::{Row, Simd};
@@ -19,8 +20,9 @@ type MapRow<S> = (Vec3Lanes<S>, <S as Simd>::F);
 impl Kernel for BaldwinWeber {
     const ID: KernelId = KernelId::BaldwinWeber;
     const ROWS: usize = 12;
-    type Prepared = Unprepared;
-    type Deferral = Immediate;
+    type Preparation = Unprepared;
+    type Search = Immediate;
+    type Storage = Floats;
     type One = Ray;
     type Many<S: Simd> = Packet<S>;
 
@@ -31,7 +33,7 @@ impl Kernel for BaldwinWeber {
     }
 
     #[inline(always)]
-    fn corners(_: &[Row], _: usize) -> Option<Corners> {
+    fn corners(_: Packed<'_>) -> Option<Corners> {
         None
     }
 
@@ -46,15 +48,15 @@ impl Kernel for BaldwinWeber {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
-        let rows = &group[..12];
+    fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {
+        let (rows, at) = (&packed.group[..12], packed.lane);
         let map = [load_row(s, &rows[..4], at), load_row(s, &rows[4..8], at), load_row(s, &rows[8..], at)];
         test(s, &Packet::splat(s, ray), map, s.splat(t_max))
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        let rows = &group[..12];
+    fn rays<S: Simd>(s: S, rays: &Packet<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        let (rows, lane) = (&packed.group[..12], packed.lane);
         let map =
             [splat_row(s, &rows[..4], lane), splat_row(s, &rows[4..8], lane), splat_row(s, &rows[8..], lane)];
         test(s, rays, map, t_max)
@@ -78,14 +80,12 @@ fn map_of([a, b, c]: &Corners) -> [[f64; 4]; 3] {
 
 #[inline(always)]
 fn load_row<S: Simd>(s: S, rows: &[Row], at: usize) -> MapRow<S> {
-    let [x, y, z] = [s.load(&rows[0].0[at..]), s.load(&rows[1].0[at..]), s.load(&rows[2].0[at..])];
-    ([x, y, z], s.load(&rows[3].0[at..]))
+    (load3(s, &rows[..3], at), s.load(&rows[3].0[at..]))
 }
 
 #[inline(always)]
 fn splat_row<S: Simd>(s: S, rows: &[Row], lane: usize) -> MapRow<S> {
-    let [x, y, z] = [s.splat(rows[0].0[lane]), s.splat(rows[1].0[lane]), s.splat(rows[2].0[lane])];
-    ([x, y, z], s.splat(rows[3].0[lane]))
+    (splat_row3(s, &rows[..3], lane), s.splat(rows[3].0[lane]))
 }
 
 /// A ray in the plane has a zero slope: t is then infinite or NaN, and so are u and v.

@@ -1,7 +1,8 @@
 //! The paper's set Q before its detail tests (Skala 1993, §2–3): an object counts as hit where the ray meets its box.
 //! What is left of a ray's cost is the structure's, with six values an object instead of nine.
 
-use super::{Corners, Immediate, Kernel, KernelId, Unprepared, load3, splat_row3};
+use super::packed::{load3, splat_row3};
+use super::{Corners, Floats, Immediate, Kernel, KernelId, Packed, Unprepared};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use lanes::{Row, Scalar, Simd};
@@ -63,8 +64,9 @@ impl Kernel for BoundingBox {
     const ID: KernelId = KernelId::BoundingBox;
     /// The least and the greatest corner of the box.
     const ROWS: usize = 6;
-    type Prepared = Unprepared;
-    type Deferral = Immediate;
+    type Preparation = Unprepared;
+    type Search = Immediate;
+    type Storage = Floats;
     type One = Slabs;
     type Many<S: Simd> = SlabsLanes<S>;
 
@@ -78,7 +80,8 @@ impl Kernel for BoundingBox {
     }
 
     #[inline(always)]
-    fn corners(group: &[Row], lane: usize) -> Option<Corners> {
+    fn corners(packed: Packed<'_>) -> Option<Corners> {
+        let Packed { group, lane } = packed;
         let at = |row: usize| Vec3::new(group[row].0[lane], group[row + 1].0[lane], group[row + 2].0[lane]);
         Some([at(0), at(3), at(0)])
     }
@@ -95,17 +98,19 @@ impl Kernel for BoundingBox {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Slabs, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(s: S, ray: &Slabs, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {
+        let Packed { group, lane } = packed;
         let ray = SlabsLanes {
             origin: splat3(s, ray.origin),
             inverse: splat3(s, ray.inverse),
             t_min: s.splat(ray.t_min),
         };
-        test(s, &ray, [load3(s, &group[..3], at), load3(s, &group[3..6], at)], s.splat(t_max))
+        test(s, &ray, [load3(s, &group[..3], lane), load3(s, &group[3..6], lane)], s.splat(t_max))
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &SlabsLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
+    fn rays<S: Simd>(s: S, rays: &SlabsLanes<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        let Packed { group, lane } = packed;
         test(s, rays, [splat_row3(s, &group[..3], lane), splat_row3(s, &group[3..6], lane)], t_max)
     }
 }

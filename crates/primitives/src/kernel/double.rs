@@ -1,11 +1,11 @@
 //! Möller and Trumbore's test in `f64`: the cheap way to be right nearly always.
 
 use super::wide::{OneRay, OneTriangle, Pairs, Products};
-use super::{Immediate, Kernel, KernelId, Unprepared};
+use super::{Floats, Immediate, Kernel, KernelId, Packed, Unprepared};
 use accel::Ray;
 use lanes::packet::RayRows;
 use lanes::packet::{Lanes, Packet};
-use lanes::{ROW, Row, Simd};
+use lanes::{ROW, Simd};
 
 /// [`super::MollerTrumbore`] with every operation in `f64`. Products of three `f32`
 /// neither under- nor overflow there, so scale makes no difference.
@@ -22,8 +22,9 @@ pub struct Rays<S: Simd> {
 impl Kernel for Double {
     const ID: KernelId = KernelId::Double;
     const NORMALISED: bool = false;
-    type Prepared = Unprepared;
-    type Deferral = Immediate;
+    type Preparation = Unprepared;
+    type Search = Immediate;
+    type Storage = Floats;
     type One = Ray;
     type Many<S: Simd> = Rays<S>;
 
@@ -38,13 +39,13 @@ impl Kernel for Double {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
-        test(s, &OneRay::new(ray, group, at, S::LANES), s.splat(ray.t_min), s.splat(t_max))
+    fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {
+        test(s, &OneRay::new(ray, packed, S::LANES), s.splat(ray.t_min), s.splat(t_max))
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &Rays<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        test(s, &OneTriangle::new(&rays.rows, group, lane), rays.t_min, t_max)
+    fn rays<S: Simd>(s: S, rays: &Rays<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        test(s, &OneTriangle::new(&rays.rows, packed), rays.t_min, t_max)
     }
 }
 

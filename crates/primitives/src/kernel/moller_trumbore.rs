@@ -1,9 +1,9 @@
 //! T. Möller, B. Trumbore, *Fast, Minimum Storage Ray/Triangle Intersection*,
 //! Journal of Graphics Tools 2(1), 1997: no storage beyond the corners, one division.
 
+use super::packed::splat_row3;
 use super::{
-    Immediate, Kernel, KernelId, Preparation, cross3, dot3, load_corners, splat_corners, splat_row3,
-    store_rows, sub3,
+    Floats, InPairs, Kernel, KernelId, Packed, Paired, Preparation, Prepared, cross3, dot3, store_rows, sub3,
 };
 use accel::{Common, Ray};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
@@ -16,8 +16,9 @@ pub struct MollerTrumbore;
 
 impl Kernel for MollerTrumbore {
     const ID: KernelId = KernelId::MollerTrumbore;
-    type Prepared = Self;
-    type Deferral = Immediate;
+    type Preparation = Self;
+    type Search = InPairs;
+    type Storage = Floats;
     type One = Ray;
     type Many<S: Simd> = Packet<S>;
 
@@ -32,17 +33,17 @@ impl Kernel for MollerTrumbore {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
-        test(s, &Packet::splat(s, ray), load_corners(s, group, at), s.splat(t_max))
+    fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {
+        test(s, &Packet::splat(s, ray), packed.load_corners(s), s.splat(t_max))
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        test(s, rays, splat_corners(s, group, lane), t_max)
+    fn rays<S: Simd>(s: S, rays: &Packet<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        test(s, rays, packed.splat_corners(s), t_max)
     }
+}
 
-    const EACH: bool = true;
-
+impl Paired for MollerTrumbore {
     #[inline(always)]
     fn each<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S> {
         test(s, rays, corners, t_max)
@@ -53,9 +54,10 @@ impl Preparation<Self> for MollerTrumbore {
     const ROWS: usize = 13;
 
     #[inline(always)]
-    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
+    fn prepare<S: Simd>(s: S, common: &Common, packed: Packed<'_>, rows: &mut [Row]) {
+        let at = packed.lane;
         let rows = &mut rows[..<Self as Preparation<Self>>::ROWS];
-        let [a, b, c] = load_corners(s, group, at);
+        let [a, b, c] = packed.load_corners(s);
         let edge1 = sub3(s, b, a);
         let edge2 = sub3(s, c, a);
         store_rows(s, edge1, &mut rows[0..3], at);
@@ -78,15 +80,8 @@ impl Preparation<Self> for MollerTrumbore {
     }
 
     #[inline(always)]
-    fn rays_prepared<S: Simd>(
-        s: S,
-        rays: &Packet<S>,
-        common: &Common,
-        group: &[Row],
-        rows: &[Row],
-        lane: usize,
-        t_max: S::F,
-    ) -> Lanes<S> {
+    fn rays_prepared<S: Simd>(s: S, rays: &Packet<S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S> {
+        let Prepared { common, packed: Packed { group, lane }, rows } = prepared;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
         let (edge1, edge2) = (splat_row3(s, &rows[0..3], lane), splat_row3(s, &rows[3..6], lane));
         let last = s.splat(rows[12].0[lane]);

@@ -1,11 +1,11 @@
 //! Corners of 16 bits a coordinate.
 
-use super::{Immediate, Kernel, KernelId, MollerTrumbore, Preparation};
+use super::{Immediate, Kernel, KernelId, MollerTrumbore, Packed, Preparation, Prepared, QuantisationGrid};
 use accel::{Common, Ray};
 use lanes::packet::{Lanes, Packet};
 use lanes::{Row, Simd};
 
-/// [`MollerTrumbore`] on corners that are rounded to a lattice of 2^16 places an axis over the whole scene, and kept so: half the
+/// [`MollerTrumbore`] on corners that are rounded to a grid of 2^16 places an axis over the whole scene, and kept so: half the
 /// memory, and another mesh. A corner that triangles share is rounded to the same place for all, so what was closed stays closed.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Quantised;
@@ -14,43 +14,30 @@ type Test = MollerTrumbore;
 
 impl Kernel for Quantised {
     const ID: KernelId = KernelId::Quantised;
-    const QUANTISED: bool = true;
-    type Prepared = Self;
-    type Deferral = Immediate;
+    type Preparation = Self;
+    type Search = Immediate;
+    type Storage = QuantisationGrid;
     type One = <Test as Kernel>::One;
     type Many<S: Simd> = <Test as Kernel>::Many<S>;
 
     #[inline(always)]
-    fn one(ray: &Ray) -> Self::One {
+    fn one(ray: &Ray) -> Ray {
         Test::one(ray)
     }
 
     #[inline(always)]
-    fn many<S: Simd>(s: S, rays: &Packet<S>) -> Self::Many<S> {
+    fn many<S: Simd>(s: S, rays: &Packet<S>) -> Packet<S> {
         Test::many(s, rays)
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(
-        s: S,
-        ray: &Self::One,
-        group: &[Row],
-        at: usize,
-        wanted: u32,
-        t_max: f32,
-    ) -> Lanes<S> {
-        Test::triangles(s, ray, group, at, wanted, t_max)
+    fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {
+        Test::triangles(s, ray, packed, wanted, t_max)
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(
-        s: S,
-        rays: &<Self as Kernel>::Many<S>,
-        group: &[Row],
-        lane: usize,
-        t_max: S::F,
-    ) -> Lanes<S> {
-        Test::rays(s, rays, group, lane, t_max)
+    fn rays<S: Simd>(s: S, rays: &Packet<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        Test::rays(s, rays, packed, t_max)
     }
 }
 
@@ -58,20 +45,12 @@ impl Preparation<Self> for Quantised {
     const ROWS: usize = <Test as Preparation<Test>>::ROWS;
 
     #[inline(always)]
-    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
-        Test::prepare(s, common, group, at, rows);
+    fn prepare<S: Simd>(s: S, common: &Common, packed: Packed<'_>, rows: &mut [Row]) {
+        Test::prepare(s, common, packed, rows);
     }
 
     #[inline(always)]
-    fn rays_prepared<S: Simd>(
-        s: S,
-        rays: &<Self as Kernel>::Many<S>,
-        common: &Common,
-        group: &[Row],
-        rows: &[Row],
-        lane: usize,
-        t_max: S::F,
-    ) -> Lanes<S> {
-        Test::rays_prepared(s, rays, common, group, rows, lane, t_max)
+    fn rays_prepared<S: Simd>(s: S, rays: &Packet<S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S> {
+        Test::rays_prepared(s, rays, prepared, t_max)
     }
 }

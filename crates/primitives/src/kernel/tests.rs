@@ -1,4 +1,6 @@
 use super::*;
+use crate::{TriangleKernel, WithKernel};
+use accel::Vec3;
 use lanes::{Level, Task};
 use proptest::prelude::*;
 
@@ -38,7 +40,7 @@ impl<K: Kernel> Task for BothWays<'_, K> {
         let mut out = vec![[None; 2]; rays.len() * triangles.len()];
         for (r, ray) in rays.iter().enumerate() {
             for at in (0..ROW).step_by(S::LANES) {
-                let lanes = K::triangles(s, &K::one(ray), &group, at, u32::MAX, f32::INFINITY);
+                let lanes = K::triangles(s, &K::one(ray), Packed::new(&group, at), u32::MAX, f32::INFINITY);
                 for lane in (0..S::LANES).filter(|lane| s.bits(lanes.hit) >> lane & 1 != 0) {
                     out[r * triangles.len() + at + lane][0] = Some(lanes.rows(s).surface(lane));
                 }
@@ -47,7 +49,7 @@ impl<K: Kernel> Task for BothWays<'_, K> {
         for first in (0..rays.len()).step_by(S::LANES) {
             let many = K::many(s, &Packet::load(s, &rays[first..]));
             for k in 0..triangles.len() {
-                let lanes = K::rays(s, &many, &group, k, s.splat(f32::INFINITY));
+                let lanes = K::rays(s, &many, Packed::new(&group, k), s.splat(f32::INFINITY));
                 for lane in (0..S::LANES).filter(|lane| s.bits(lanes.hit) >> lane & 1 != 0) {
                     out[(first + lane) * triangles.len() + k][1] = Some(lanes.rows(s).surface(lane));
                 }
@@ -61,7 +63,7 @@ struct Check<'a>(&'a [Ray], &'a [Corners]);
 
 impl WithKernel for Check<'_> {
     type Out = usize;
-    fn kernel<K: Kernel>(self) -> usize {
+    fn kernel<K: TriangleKernel>(self) -> usize {
         let Self(rays, triangles) = self;
         let mut hits = 0;
         for level in Level::here() {
@@ -106,7 +108,7 @@ fn a_plain_hit_has_the_expected_coordinates() {
     struct Plain;
     impl WithKernel for Plain {
         type Out = Option<Surface>;
-        fn kernel<K: Kernel>(self) -> Self::Out {
+        fn kernel<K: TriangleKernel>(self) -> Self::Out {
             let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
             let ray = Ray::new(Vec3::new(0.25, 0.5, 2.0), Vec3::NEG_Z);
             K::test(&K::one(&ray), &corners, 10.0)

@@ -2,10 +2,10 @@
 //! Computer Graphics Techniques 2(1), 2013: the ray is sheared onto an axis, edge functions
 //! are evaluated in the plane, and a zero edge function is evaluated again in `f64`.
 
-use super::{Immediate, Kernel, KernelId, Unprepared, det2, dot3, load_corners, splat_corners, sub3};
+use super::{Floats, Immediate, Kernel, KernelId, Packed, Unprepared, det2, dot3, sub3};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
-use lanes::{ROW, Row, Simd};
+use lanes::{ROW, Simd};
 
 /// Woop, Benthin and Wald's test, two-sided: a ray through a closed mesh never slips
 /// between two triangles that share an edge or a corner.
@@ -70,8 +70,9 @@ fn shear<S: Simd>(s: S, [x, y, z]: Vec3Lanes<S>) -> Vec3Lanes<S> {
 
 impl Kernel for Watertight {
     const ID: KernelId = KernelId::Watertight;
-    type Prepared = Unprepared;
-    type Deferral = Immediate;
+    type Preparation = Unprepared;
+    type Search = Immediate;
+    type Storage = Floats;
     type One = Sheared;
     type Many<S: Simd> = ShearedLanes<S>;
 
@@ -111,19 +112,19 @@ impl Kernel for Watertight {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Sheared, group: &[Row], at: usize, _: u32, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(s: S, ray: &Sheared, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {
         let lanes = ShearedLanes {
             origin: splat3(s, ray.ray.origin),
             t_min: s.splat(ray.ray.t_min),
             dominant: Dominant::Same(ray.dominant),
             shear: splat3(s, Vec3::from_array(ray.shear)),
         };
-        test(s, &lanes, load_corners(s, group, at), s.splat(t_max))
+        test(s, &lanes, packed.load_corners(s), s.splat(t_max))
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &ShearedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        test(s, rays, splat_corners(s, group, lane), t_max)
+    fn rays<S: Simd>(s: S, rays: &ShearedLanes<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        test(s, rays, packed.splat_corners(s), t_max)
     }
 }
 

@@ -3,7 +3,7 @@
 //! [`lanes::Simd`] has no lanes of `f64`. Plain loops over rows in memory serve: compiled for
 //! the instruction set of the task, they become vectors.
 
-use super::{Corners, unpack_corners};
+use super::{Corners, Packed};
 use accel::{Ray, Vec3};
 use lanes::Row;
 use lanes::packet::RayRows;
@@ -70,22 +70,22 @@ pub(super) trait Pairs {
 }
 
 impl<'a> OneRay<'a> {
-    /// The triangles in `lanes` lanes of a group from lane `at` on.
+    /// The triangles in `lanes` lanes.
     #[inline(always)]
-    pub(super) fn new(ray: &'a Ray, group: &'a [Row], at: usize, lanes: usize) -> Self {
+    pub(super) fn new(ray: &'a Ray, packed: Packed<'a>, lanes: usize) -> Self {
+        let Packed { group, lane } = packed;
         let mut rows: [&[f32]; 9] = [&[]; 9];
-        for (row, packed) in rows.iter_mut().zip(&group[..9]) {
-            *row = &packed.0[at..at + lanes];
+        for (row, values) in rows.iter_mut().zip(&group[..9]) {
+            *row = &values.0[lane..lane + lanes];
         }
         Self { ray, rows }
     }
 }
 
 impl<'a> OneTriangle<'a> {
-    /// The triangle in lane `lane` of a group.
     #[inline(always)]
-    pub(super) fn new(rays: &'a RayRows, group: &[Row], lane: usize) -> Self {
-        Self { rays, corners: unpack_corners(group, lane) }
+    pub(super) fn new(rays: &'a RayRows, packed: Packed<'_>) -> Self {
+        Self { rays, corners: packed.corners() }
     }
 }
 
@@ -103,7 +103,7 @@ impl Pairs for OneEach<'_> {
     }
     #[inline(always)]
     fn corners(&self, lane: usize) -> Corners {
-        unpack_corners(self.group, lane)
+        Packed::new(self.group, lane).corners()
     }
 }
 

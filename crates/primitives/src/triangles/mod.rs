@@ -1,36 +1,35 @@
 //! Triangles as objects, with the kernel as a parameter.
 
+mod deferred;
 mod frame;
+mod immediate;
+mod in_pairs;
 mod in_place;
-mod lattice;
 mod pack;
-mod packets;
-mod pairs;
 mod pending;
-mod single;
+mod search;
 #[cfg(test)]
 mod tests;
 
-use self::frame::{Frame, LIMIT_ROWS, Limits};
-use self::lattice::{Lattice, ShortRows};
+pub use search::TriangleKernel;
+
 use crate::Kernel;
-use crate::kernel::load_corners;
-use crate::kernel::{Deferral, Preparation};
+use crate::kernel::{Packed, Preparation, Prepared, Storage};
 use accel::Objects;
 use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
+use frame::Frame;
 use lanes::packet::{NearestPacket, Packet, Pairs, Vec3Lanes};
-use lanes::{Blocks, EMPTY_SLOT, Ids, PackedObjects};
+use lanes::{Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared};
 use lanes::{ROW, Row, Simd};
-use std::cmp::Ordering;
+use search::{Candidates, PreparedSlot, Search};
 use std::marker::PhantomData;
 
 /// The triangles of a mesh, tested by kernel `K`.
 #[derive(Clone, Copy, Debug)]
-pub struct Triangles<'s, K> {
+pub struct Triangles<'s, K: Kernel> {
     mesh: MeshRef<'s>,
     frame: Frame,
-    /// For kernels that are [`Kernel::QUANTISED`].
-    lattice: Lattice,
+    storage: K::Storage,
     kernel: PhantomData<K>,
 }
 
@@ -54,32 +53,24 @@ impl<'s, K: Kernel> Triangles<'s, K> {
     /// The objects of a scene of triangles.
     pub fn new(mesh: impl Into<MeshRef<'s>>) -> Self {
         let mesh = mesh.into();
-        const { assert!(!K::QUANTISED || (K::ROWS == CORNER_ROWS && !K::Deferral::DEFERS)) };
         let mut bounds = mesh.bounds();
-        let lattice = Lattice::over(&bounds);
-        if K::QUANTISED && !bounds.is_empty() {
-            bounds = Aabb { min: lattice.snap(bounds.min), max: lattice.snap(bounds.max) };
+        let storage = K::Storage::over(&bounds);
+        if !bounds.is_empty() {
+            bounds = Aabb { min: storage.place(bounds.min), max: storage.place(bounds.max) };
         }
-        Self { mesh, frame: Frame::of(&bounds, K::NORMALISED), lattice, kernel: PhantomData }
+        Self { mesh, frame: Frame::of(&bounds, K::NORMALISED), storage, kernel: PhantomData }
     }
 
     /// The corners of a triangle, where the kernel sees them.
     #[inline]
     fn corners(&self, id: u32) -> Corners {
-        let corners = self.mesh.corners(id as usize);
-        if K::QUANTISED { corners.map(|corner| self.lattice.snap(corner)) } else { corners }
+        self.mesh.corners(id as usize).map(|corner| self.storage.place(corner))
     }
 
     /// Whether `a` comes before `b`, both hit at the same reported t.
     #[inline]
     fn precedes(&self, ray: &Ray, a: u32, b: u32) -> bool {
-        let order = if K::Deferral::DEFERS { self.order(ray, a, b) } else { Ordering::Equal };
-        order.then(a.cmp(&b)).is_lt()
-    }
-
-    #[cold]
-    fn order(&self, ray: &Ray, a: u32, b: u32) -> Ordering {
-        K::Deferral::order(ray, &self.corners(a), &self.corners(b))
+        K::order(ray, || [self.corners(a), self.corners(b)]).then(a.cmp(&b)).is_lt()
     }
 }
 
@@ -110,7 +101,7 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
     }
 }
 
-impl<'s, K: Kernel> PackedObjects for Triangles<'s, K> {
+impl<'s, K: TriangleKernel> PackedObjects for Triangles<'s, K> {
     type Blocks = TriangleBlocks<'s, K>;
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
@@ -124,12 +115,9 @@ impl<'s, K: Kernel> PackedObjects for Triangles<'s, K> {
 
 /// Triangles packed as rows of 16: four groups to a block.
 #[derive(Clone, Debug)]
-pub struct TriangleBlocks<'s, K> {
+pub struct TriangleBlocks<'s, K: Kernel> {
     triangles: Triangles<'s, K>,
-    /// What the kernel packs, unless it is [`Kernel::QUANTISED`].
-    rows: Vec<Row>,
-    /// The corners of those that are.
-    short: Vec<ShortRows>,
+    units: Vec<<K::Storage as Storage>::Unit>,
     ids: Ids,
     /// Whether nothing is packed but numbers.
     in_place: bool,
@@ -154,44 +142,36 @@ impl Scratch {
 }
 
 impl<K: Kernel> TriangleBlocks<'_, K> {
-    /// The rows of a slot's group as packed.
+    /// A slot's group as it is kept.
     #[inline(always)]
-    fn packed(&self, slot: usize) -> &[Row] {
-        let first = slot / ROW * K::ROWS;
-        &self.rows[first..first + K::ROWS]
+    fn units(&self, slot: usize) -> &[<K::Storage as Storage>::Unit] {
+        let each = K::Storage::units::<K>();
+        let first = slot / ROW * each;
+        &self.units[first..first + each]
     }
 
-    /// The rows of a slot's group, in which the lanes `LANES` by `LANES` with that of the slot are unpacked.
+    /// The triangles in `LANES` slots from `slot` on.
     #[inline(always)]
-    fn group<'a, S: Simd>(&'a self, s: S, slot: usize, scratch: &'a mut Scratch) -> &'a [Row] {
-        if K::QUANTISED {
-            self.unpack(s, slot, slot % ROW / S::LANES * S::LANES, &mut scratch.0);
-            return &scratch.0;
-        }
-        self.packed(slot)
-    }
-
-    /// Unpacks `LANES` triangles of a slot's group.
-    #[inline(always)]
-    fn unpack<S: Simd>(&self, s: S, slot: usize, at: usize, rows: &mut [Row]) {
-        let Triangles { lattice, frame, .. } = &self.triangles;
-        lattice.unpack(s, &self.short[slot / ROW], at, frame.scale, rows);
+    fn unpacked<'a, S: Simd>(&'a self, s: S, slot: usize, rows: &'a mut [Row]) -> Packed<'a> {
+        let (lane, Triangles { storage, frame, .. }) = (slot % ROW, &self.triangles);
+        let at = lane / S::LANES * S::LANES;
+        Packed::new(storage.rows(s, self.units(slot), at, frame.scale, rows), lane)
     }
 
     /// The corners of the triangle in a slot, or others with the same box.
     #[inline(always)]
-    fn corners(&self, group: &[Row], slot: usize) -> Corners {
-        let packed = if self.rows_hold_corners() { K::corners(group, slot % ROW) } else { None };
-        packed.unwrap_or_else(|| self.triangles.corners(self.ids.get(slot)))
+    fn corners(&self, packed: Packed<'_>, slot: usize) -> Corners {
+        let corners = if self.rows_hold_corners() { K::corners(packed) } else { None };
+        corners.unwrap_or_else(|| self.triangles.corners(self.ids.get(slot)))
     }
 
     /// [`TriangleBlocks::corners`] for one that isn't unpacked.
     #[inline(always)]
     fn corners_of(&self, slot: usize) -> Corners {
-        if K::QUANTISED {
-            return self.triangles.corners(self.ids.get(slot));
+        match K::Storage::kept(self.units(slot)) {
+            Some(group) => self.corners(Packed::new(group, slot % ROW), slot),
+            None => self.triangles.corners(self.ids.get(slot)),
         }
-        self.corners(self.packed(slot), slot)
     }
 
     /// Whether the corners in the rows, if any, are those of the mesh.
@@ -216,12 +196,12 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     }
 }
 
-impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
+impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     type One = TriangleRay<K::One>;
     type Many<S: Simd> = TrianglePacket<S, K::Many<S>>;
 
     fn bytes(&self) -> usize {
-        accel::vec_bytes(&self.rows) + accel::vec_bytes(&self.short) + self.ids.bytes()
+        accel::vec_bytes(&self.units) + self.ids.bytes()
     }
 
     #[inline]
@@ -250,64 +230,34 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
         if self.in_place {
-            return self.one_in_place(s, block, mask, &ray.ray, false, best);
+            return K::Search::in_place(self, s, Candidates { block, mask }, &ray.ray, false, best);
         }
-        if K::Deferral::DEFERS {
-            return self.defer_nearest(s, block, mask, ray, best);
-        }
-        self.visit(s, block, mask, ray, best.t, |object, surface| {
-            self.offer_one(ray, object, surface, best);
-            Some(best.t)
-        });
+        K::Search::closest(self, s, Candidates { block, mask }, ray, best);
     }
 
     #[inline(always)]
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         if self.in_place {
             let mut best = Nearest::new(t_max);
-            self.one_in_place(s, block, mask, &ray.ray, true, &mut best);
+            K::Search::in_place(self, s, Candidates { block, mask }, &ray.ray, true, &mut best);
             return best.object != Nearest::NONE;
         }
-        if K::Deferral::DEFERS {
-            return self.any_certain(s, block, mask, ray, t_max);
-        }
-        let mut any = false;
-        self.visit(s, block, mask, ray, t_max, |_, _| {
-            any = true;
-            None
-        });
-        any
+        K::Search::any(self, s, Candidates { block, mask }, ray, t_max)
     }
 
     #[inline(always)]
     fn resolve(&self, ray: &Self::One, best: &mut Nearest) {
-        if K::Deferral::DEFERS {
-            self.resolve_one(ray, best);
-        }
+        K::Search::resolve(self, ray, best);
     }
 
     #[inline(always)]
     fn takes_pairs<S: Simd>() -> bool {
-        K::EACH && S::LANES == ROW
+        K::Search::IN_PAIRS && S::LANES == ROW
     }
 
     #[inline(always)]
-    fn pairs<S: Simd>(
-        &self,
-        s: S,
-        block: usize,
-        pairs: &Pairs,
-        lanes: &Packet<S>,
-        any: bool,
-        best: &mut [Nearest; ROW],
-    ) {
-        if !K::EACH {
-            return self.pairs_one_by_one(s, block, pairs, lanes, best);
-        }
-        if self.in_place {
-            return self.pairs_in_place(s, block, pairs, lanes, any, best);
-        }
-        self.each_pair(s, block, pairs, lanes, any, best);
+    fn pairs<S: Simd>(&self, s: S, pairs: &Pairs<'_, S>, best: &mut [Nearest; ROW]) {
+        K::Search::pairs(self, s, pairs, best);
     }
 
     #[inline(always)]
@@ -315,44 +265,19 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         if self.in_place {
             return self.packet_in_place(s, slot, &rays.rays, best);
         }
-        let mut scratch = Scratch::EMPTY;
-        let group = self.group(s, slot, &mut scratch);
-        if K::Deferral::DEFERS {
-            let bounds = K::Deferral::bounds(s, &rays.prepared, group, slot % ROW, best.t);
-            if s.bits(bounds.undecided) != 0 {
-                self.defer(s, slot, rays, &bounds, best);
-            }
-            return;
-        }
-        let lanes = K::rays(s, &rays.prepared, group, slot % ROW, best.t);
-        if s.bits(lanes.hit) != 0 {
-            let limits = Limits::of(&self.triangles.frame, &self.corners(group, slot));
-            self.offer(s, slot, rays, &limits, lanes, best);
-        }
+        K::Search::packet(self, s, slot, rays, best);
     }
 
-    const PREPARED_ROWS: usize = K::Prepared::ROWS
-        + if K::Deferral::DEFERS { 0 } else { LIMIT_ROWS }
-        + if K::QUANTISED { CORNER_ROWS } else { 0 };
+    const PREPARED_ROWS: usize = K::Preparation::ROWS + K::Search::LIMIT_ROWS + K::Storage::UNPACKED_ROWS;
 
     #[inline(always)]
     fn prepare<S: Simd>(&self, s: S, first: usize, common: &Common, rows: &mut [Row]) {
-        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at_mut(K::Prepared::ROWS);
-        let (limits, unpacked) = limits.split_at_mut(if K::Deferral::DEFERS { 0 } else { LIMIT_ROWS });
+        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at_mut(K::Preparation::ROWS);
+        let (limits, unpacked) = limits.split_at_mut(K::Search::LIMIT_ROWS);
         for at in (0..ROW).step_by(S::LANES) {
-            let group = if K::QUANTISED {
-                self.unpack(s, first, at, unpacked);
-                &*unpacked
-            } else {
-                self.packed(first)
-            };
-            K::Prepared::prepare(s, &self.triangles.frame.common(common), group, at, rows);
-            if K::Deferral::DEFERS {
-                continue;
-            }
-            let held = K::ROWS >= CORNER_ROWS && self.rows_hold_corners() && K::corners(group, 0).is_some();
-            let corners = if held { load_corners(s, group, at) } else { self.gather(s, first + at) };
-            Limits::store(s, &self.triangles.frame, corners, limits, at);
+            let packed = self.unpacked(s, first + at, unpacked);
+            K::Preparation::prepare(s, &self.triangles.frame.common(common), packed, rows);
+            K::Search::limits(self, s, first + at, packed, limits);
         }
     }
 
@@ -361,32 +286,20 @@ impl<K: Kernel> Blocks for TriangleBlocks<'_, K> {
         &self,
         s: S,
         slot: usize,
-        common: &Common,
-        rows: &[Row],
+        shared: Shared<'_>,
         rays: &Self::Many<S>,
         best: &mut NearestPacket<S>,
     ) {
-        let lane = slot % ROW;
-        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at(K::Prepared::ROWS);
-        let group = if K::QUANTISED { &limits[LIMIT_ROWS..] } else { self.packed(slot) };
-        let common = &self.triangles.frame.common(common);
-        if K::Deferral::DEFERS {
-            let bounds = K::Deferral::bounds_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
-            if s.bits(bounds.undecided) != 0 {
-                self.defer(s, slot, rays, &bounds, best);
-            }
-            return;
-        }
-        let lanes = K::Prepared::rays_prepared(s, &rays.prepared, common, group, rows, lane, best.t);
-        if s.bits(lanes.hit) != 0 {
-            self.offer(s, slot, rays, &Limits::load(limits, lane), lanes, best);
-        }
+        let (rows, limits) = shared.rows[..Self::PREPARED_ROWS].split_at(K::Preparation::ROWS);
+        let (limits, unpacked) = limits.split_at(K::Search::LIMIT_ROWS);
+        let packed = Packed::new(K::Storage::kept(self.units(slot)).unwrap_or(unpacked), slot % ROW);
+        let common = &self.triangles.frame.common(shared.common);
+        let one = PreparedSlot { slot, prepared: Prepared { common, packed, rows }, limits };
+        K::Search::packet_prepared(self, s, one, rays, best);
     }
 
     #[inline(always)]
     fn resolve_packet<S: Simd>(&self, s: S, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
-        if K::Deferral::DEFERS {
-            self.resolve_lanes(s, rays, u32::MAX, best);
-        }
+        K::Search::resolve_packet(self, s, rays, best);
     }
 }

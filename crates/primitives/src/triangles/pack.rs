@@ -1,10 +1,12 @@
 //! Packing triangles in an order.
 
-use super::{CORNER_ROWS, Kernel, TriangleBlocks, Triangles};
+use super::{TriangleBlocks, Triangles};
+use crate::Kernel;
+use crate::kernel::Storage;
 use accel::parallel::for_each_chunk;
 use accel::{MeshRef, filled};
 use lanes::Ids;
-use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, prefetch};
+use lanes::{BLOCK, EMPTY_SLOT, ROW, prefetch};
 
 /// Groups by which memory is asked for before it is needed; twice as many for what says where.
 const AHEAD: usize = 2;
@@ -15,29 +17,18 @@ const TASK: usize = 512;
 /// Slot i holds triangle `order[i]`, or nothing for [`EMPTY_SLOT`].
 pub(super) fn blocks<'s, K: Kernel>(triangles: &Triangles<'s, K>, order: &[u32]) -> TriangleBlocks<'s, K> {
     let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
-    let (mut rows, mut short) = (Vec::new(), Vec::new());
-    if K::QUANTISED {
-        short = filled([[0; ROW]; CORNER_ROWS], groups);
-        for_each_chunk(&mut short, TASK, &|task, groups| {
-            for (group, rows) in (task * TASK..).zip(groups) {
-                ask_ahead(triangles.mesh, order, group);
-                for (lane, id) in taken(order, group) {
-                    triangles.lattice.pack(&triangles.mesh.corners(id as usize), rows, lane);
-                }
+    let each = K::Storage::units::<K>();
+    let mut units = filled(K::Storage::EMPTY, groups * each);
+    for_each_chunk(&mut units, TASK * each, &|task, units| {
+        for (group, units) in (task * TASK..).zip(units.chunks_exact_mut(each)) {
+            ask_ahead(triangles.mesh, order, group);
+            for (lane, id) in taken(order, group) {
+                let corners = triangles.mesh.corners(id as usize);
+                triangles.storage.pack::<K>(&corners, triangles.frame.scale, units, lane);
             }
-        });
-    } else {
-        rows = filled(Row([f32::NAN; ROW]), groups * K::ROWS);
-        for_each_chunk(&mut rows, TASK * K::ROWS, &|task, rows| {
-            for (group, rows) in (task * TASK..).zip(rows.chunks_exact_mut(K::ROWS)) {
-                ask_ahead(triangles.mesh, order, group);
-                for (lane, id) in taken(order, group) {
-                    K::pack(&triangles.frame.corners(&triangles.corners(id)), rows, lane);
-                }
-            }
-        });
-    }
-    TriangleBlocks { triangles: *triangles, rows, short, ids: Ids::new(order), in_place: false }
+        }
+    });
+    TriangleBlocks { triangles: *triangles, units, ids: Ids::new(order), in_place: false }
 }
 
 /// Slot i holds triangle `order[i]`, of which nothing is copied.
@@ -46,7 +37,7 @@ pub(super) fn blocks_in_place<'s, K: Kernel>(
     order: &[u32],
 ) -> TriangleBlocks<'s, K> {
     let ids = Ids::new(order);
-    TriangleBlocks { triangles: *triangles, rows: Vec::new(), short: Vec::new(), ids, in_place: true }
+    TriangleBlocks { triangles: *triangles, units: Vec::new(), ids, in_place: true }
 }
 
 fn slots(order: &[u32], group: usize) -> impl Iterator<Item = u32> {

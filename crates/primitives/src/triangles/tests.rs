@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Kernel, KernelId, WithKernel};
+use crate::{KernelId, WithKernel};
 use accel::tolerance::holds;
 use accel::{Mesh, Vec3};
 use lanes::{BLOCK, Level, OneByOne, ROW, Task};
@@ -47,8 +47,9 @@ impl<B: Blocks> Task for ByMask<'_, B> {
                     len += 1;
                 }
             }
-            let pairs = Pairs { rays: &places, slots: &slots, len };
-            blocks.pairs(s, 0, &pairs, &Packet::load(s, &rays[first..]), false, &mut paired);
+            let packet = &Packet::load(s, &rays[first..]);
+            let pairs = Pairs { block: 0, packet, rays: &places, slots: &slots, len, any: false };
+            blocks.pairs(s, &pairs, &mut paired);
             for lane in 0..S::LANES {
                 (out[first + lane][1], out[first + lane][2]) = (stored[lane], paired[lane]);
             }
@@ -63,7 +64,7 @@ struct Compare<'a>(&'a Mesh, &'a [Ray], u64);
 
 impl WithKernel for Compare<'_> {
     type Out = ();
-    fn kernel<K: Kernel>(self) {
+    fn kernel<K: TriangleKernel>(self) {
         let Self(mesh, rays, mask) = self;
         let objects = Triangles::<K>::new(mesh);
         let order: Vec<u32> =

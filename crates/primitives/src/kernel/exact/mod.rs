@@ -16,7 +16,7 @@
 //!
 //! t is the true one correctly rounded. Rounding keeps order, so of two hits the one reported at the lower t is the
 //! nearer one; hits reported at the same t are put in order by exact quotients unless they are of one edge or corner
-//! ([`Deferral::order`]).
+//! ([`Kernel::order`]).
 //!
 //! The idea of stages is that of J. R. Shewchuk, *Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
@@ -31,8 +31,9 @@ mod triple;
 #[cfg(test)]
 mod tests;
 
+use super::packed::pack_corners;
 use super::wide::{OneEach, OneRay, OneTriangle};
-use super::{Corners, Deferral, Kernel, KernelId, Preparation, load_corners, pack_corners, splat_corners};
+use super::{Corners, Deferral, Deferred, Floats, Kernel, KernelId, Packed, Preparation, Prepared};
 use accel::{Common, Ray};
 use lanes::packet::RayRows;
 use lanes::packet::{Bounds, Lanes, Packet};
@@ -68,8 +69,9 @@ impl Kernel for Exact {
     const NORMALISED: bool = false;
     /// The corners, and the largest component of the edges.
     const ROWS: usize = 10;
-    type Prepared = Self;
-    type Deferral = Self;
+    type Preparation = Self;
+    type Search = Deferred;
+    type Storage = Floats;
     type One = Spanned;
     type Many<S: Simd> = SpannedLanes<S>;
 
@@ -90,127 +92,20 @@ impl Kernel for Exact {
     }
 
     #[inline(always)]
-    fn triangles<S: Simd>(
-        s: S,
-        ray: &Spanned,
-        group: &[Row],
-        at: usize,
-        wanted: u32,
-        t_max: f32,
-    ) -> Lanes<S> {
-        let bounds = Self::triangles_bounds(s, ray, group, at, wanted, t_max);
-        Self::triangles_decided(s, ray, group, at, wanted & s.bits(bounds.undecided), t_max)
+    fn triangles<S: Simd>(s: S, ray: &Spanned, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {
+        let bounds = Self::bounds_one(s, ray, packed, wanted, t_max);
+        Self::decide_one(s, ray, packed, wanted & s.bits(bounds.undecided), t_max)
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Lanes<S> {
-        let undecided = s.bits(Self::bounds(s, rays, group, lane, t_max).undecided);
-        Self::decide(s, rays, group, lane, undecided, t_max)
-    }
-}
-
-impl Preparation<Self> for Exact {
-    const ROWS: usize = reject::PREPARED_ROWS;
-
-    #[inline(always)]
-    fn prepare<S: Simd>(s: S, common: &Common, group: &[Row], at: usize, rows: &mut [Row]) {
-        reject::prepare(s, common, load_corners(s, group, at), rows, at);
+    fn rays<S: Simd>(s: S, rays: &SpannedLanes<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+        let undecided = s.bits(Self::bounds(s, rays, packed, t_max).undecided);
+        Self::decide(s, rays, packed, undecided, t_max)
     }
 
-    #[inline(always)]
-    fn rays_prepared<S: Simd>(
-        s: S,
-        rays: &SpannedLanes<S>,
-        common: &Common,
-        group: &[Row],
-        rows: &[Row],
-        lane: usize,
-        t_max: S::F,
-    ) -> Lanes<S> {
-        let bounds = Self::bounds_prepared(s, rays, common, group, rows, lane, t_max);
-        Self::decide(s, rays, group, lane, s.bits(bounds.undecided), t_max)
-    }
-}
-
-impl Deferral<Self> for Exact {
-    #[inline(always)]
-    fn triangles_bounds<S: Simd>(
-        s: S,
-        ray: &Spanned,
-        group: &[Row],
-        at: usize,
-        wanted: u32,
-        t_max: f32,
-    ) -> Bounds<S> {
-        let rays = Packet::splat(s, &ray.ray);
-        let length = s.load(&group[LENGTH_ROW].0[at..]);
-        let span = ray.span.splat(s);
-        reject::bounds(s, &rays, &span, load_corners(s, group, at), length, wanted, s.splat(t_max))
-    }
-
-    #[inline(always)]
-    fn triangles_decided<S: Simd>(
-        s: S,
-        ray: &Spanned,
-        group: &[Row],
-        at: usize,
-        undecided: u32,
-        t_max: f32,
-    ) -> Lanes<S> {
-        if undecided == 0 {
-            return nothing(s);
-        }
-        let pairs = OneRay::new(&ray.ray, group, at, S::LANES);
-        in_range(s, decide::decide(s, &pairs, undecided), &Packet::splat(s, &ray.ray), s.splat(t_max))
-    }
-
-    #[inline(always)]
-    fn bounds<S: Simd>(s: S, rays: &SpannedLanes<S>, group: &[Row], lane: usize, t_max: S::F) -> Bounds<S> {
-        let length = s.splat(group[LENGTH_ROW].0[lane]);
-        let corners = splat_corners(s, group, lane);
-        reject::bounds(s, &rays.rays, &rays.span, corners, length, u32::MAX, t_max)
-    }
-
-    #[inline(always)]
-    fn decide<S: Simd>(
-        s: S,
-        rays: &SpannedLanes<S>,
-        group: &[Row],
-        lane: usize,
-        undecided: u32,
-        t_max: S::F,
-    ) -> Lanes<S> {
-        if undecided == 0 {
-            return nothing(s);
-        }
-        // Else the compiler loads the corners once for here and for the rejection, and by a gather.
-        let group = std::hint::black_box(group);
-        let rows = RayRows::of(s, &rays.rays);
-        let pairs = OneTriangle::new(&rows, group, lane);
-        in_range(s, decide::decide(s, &pairs, undecided), &rays.rays, t_max)
-    }
-
-    #[inline(always)]
-    fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], undecided: u32) -> Lanes<S> {
-        let rows = RayRows::of(s, rays);
-        in_range(s, decide::decide(s, &OneEach::new(&rows, group), undecided), rays, rays.t_max)
-    }
-
-    #[inline(always)]
-    fn bounds_prepared<S: Simd>(
-        s: S,
-        rays: &SpannedLanes<S>,
-        common: &Common,
-        group: &[Row],
-        rows: &[Row],
-        lane: usize,
-        t_max: S::F,
-    ) -> Bounds<S> {
-        let prepared = reject::Prepared { common, group, rows, lane };
-        reject::bounds_prepared(s, &rays.rays, &rays.span, prepared, t_max)
-    }
-
-    fn order(ray: &Ray, a: &Corners, b: &Corners) -> Ordering {
+    #[cold]
+    fn order(ray: &Ray, corners: impl FnOnce() -> [Corners; 2]) -> Ordering {
+        let [a, b] = &corners();
         if a == b {
             return Ordering::Equal;
         }
@@ -227,6 +122,81 @@ impl Deferral<Self> for Exact {
             // Neither is a hit.
             _ => Ordering::Equal,
         }
+    }
+}
+
+impl Preparation<Self> for Exact {
+    const ROWS: usize = reject::PREPARED_ROWS;
+
+    #[inline(always)]
+    fn prepare<S: Simd>(s: S, common: &Common, packed: Packed<'_>, rows: &mut [Row]) {
+        reject::prepare(s, common, packed, rows);
+    }
+
+    #[inline(always)]
+    fn rays_prepared<S: Simd>(s: S, rays: &SpannedLanes<S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S> {
+        let bounds = Self::bounds_prepared(s, rays, prepared, t_max);
+        Self::decide(s, rays, prepared.packed, s.bits(bounds.undecided), t_max)
+    }
+}
+
+impl Deferral for Exact {
+    #[inline(always)]
+    fn bounds_one<S: Simd>(s: S, ray: &Spanned, packed: Packed<'_>, wanted: u32, t_max: f32) -> Bounds<S> {
+        let rays = Packet::splat(s, &ray.ray);
+        let length = s.load(&packed.group[LENGTH_ROW].0[packed.lane..]);
+        let span = ray.span.splat(s);
+        reject::bounds(s, &rays, &span, packed.load_corners(s), length, wanted, s.splat(t_max))
+    }
+
+    #[inline(always)]
+    fn decide_one<S: Simd>(s: S, ray: &Spanned, packed: Packed<'_>, undecided: u32, t_max: f32) -> Lanes<S> {
+        if undecided == 0 {
+            return nothing(s);
+        }
+        let pairs = OneRay::new(&ray.ray, packed, S::LANES);
+        in_range(s, decide::decide(s, &pairs, undecided), &Packet::splat(s, &ray.ray), s.splat(t_max))
+    }
+
+    #[inline(always)]
+    fn bounds<S: Simd>(s: S, rays: &SpannedLanes<S>, packed: Packed<'_>, t_max: S::F) -> Bounds<S> {
+        let length = s.splat(packed.group[LENGTH_ROW].0[packed.lane]);
+        let corners = packed.splat_corners(s);
+        reject::bounds(s, &rays.rays, &rays.span, corners, length, u32::MAX, t_max)
+    }
+
+    #[inline(always)]
+    fn decide<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        packed: Packed<'_>,
+        undecided: u32,
+        t_max: S::F,
+    ) -> Lanes<S> {
+        if undecided == 0 {
+            return nothing(s);
+        }
+        // Else the compiler loads the corners once for here and for the rejection, and by a gather.
+        let group = std::hint::black_box(packed.group);
+        let rows = RayRows::of(s, &rays.rays);
+        let pairs = OneTriangle::new(&rows, Packed { group, ..packed });
+        in_range(s, decide::decide(s, &pairs, undecided), &rays.rays, t_max)
+    }
+
+    #[inline(always)]
+    fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], undecided: u32) -> Lanes<S> {
+        let rows = RayRows::of(s, rays);
+        in_range(s, decide::decide(s, &OneEach::new(&rows, group), undecided), rays, rays.t_max)
+    }
+
+    #[inline(always)]
+    fn bounds_prepared<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        prepared: Prepared<'_>,
+        t_max: S::F,
+    ) -> Bounds<S> {
+        reject::bounds_prepared(s, &rays.rays, &rays.span, prepared, t_max)
     }
 }
 

@@ -20,7 +20,8 @@
 //! (|τ| + |T/d|·|δ|)/|d| · 16/15 where |δ| < |d|/16. The bounds of t add that, with a margin for its own rounding and that of q.
 
 use super::LENGTH_ROW;
-use crate::kernel::{cross3, dot3, splat_row3, store_rows, sub3};
+use crate::kernel::packed::splat_row3;
+use crate::kernel::{Packed, Prepared, cross3, dot3, store_rows, sub3};
 use accel::{Common, Corners};
 use lanes::packet::{Bounds, Packet, Vec3Lanes, splat3};
 use lanes::{Row, Scalar, Simd};
@@ -138,13 +139,8 @@ pub(super) const PREPARED_ROWS: usize = 13;
 /// Writes the parts that are the same for all rays with this in common: in rows 0–5 the edges, and from row 6 on p and the
 /// determinant or the relative origin, q and the distance.
 #[inline(always)]
-pub(super) fn prepare<S: Simd>(
-    s: S,
-    common: &Common,
-    [a, b, c]: [Vec3Lanes<S>; 3],
-    rows: &mut [Row],
-    at: usize,
-) {
+pub(super) fn prepare<S: Simd>(s: S, common: &Common, packed: Packed<'_>, rows: &mut [Row]) {
+    let ([a, b, c], at) = (packed.load_corners(s), packed.lane);
     let rows = &mut rows[..PREPARED_ROWS];
     let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
     store_rows(s, edge1, &mut rows[0..3], at);
@@ -164,15 +160,6 @@ pub(super) fn prepare<S: Simd>(
     }
 }
 
-/// The triangle in a lane of a group, prepared.
-#[derive(Clone, Copy)]
-pub(super) struct Prepared<'a> {
-    pub common: &'a Common,
-    pub group: &'a [Row],
-    pub rows: &'a [Row],
-    pub lane: usize,
-}
-
 /// [`bounds`] for a triangle prepared.
 #[inline(always)]
 pub(super) fn bounds_prepared<S: Simd>(
@@ -182,7 +169,7 @@ pub(super) fn bounds_prepared<S: Simd>(
     triangle: Prepared<'_>,
     t_max: S::F,
 ) -> Bounds<S> {
-    let Prepared { common, group, rows, lane } = triangle;
+    let Prepared { common, packed: Packed { group, lane }, rows } = triangle;
     let rows = &rows[..PREPARED_ROWS];
     let edge1 = splat_row3(s, &rows[0..3], lane);
     let edge2 = splat_row3(s, &rows[3..6], lane);

@@ -44,7 +44,7 @@ fn check(ray: &Ray, triangle: &Corners) -> Result<(), TestCaseError> {
     let exact = intersect(ray, triangle);
     let mut group = [Row([0.0; ROW]); <Exact as Kernel>::ROWS];
     Exact::pack(triangle, &mut group, 0);
-    let bounds = Exact::triangles_bounds(Scalar, &Exact::one(ray), &group, 0, 1, ray.t_max);
+    let bounds = Exact::bounds_one(Scalar, &Exact::one(ray), Packed::new(&group, 0), 1, ray.t_max);
     prop_assert!(bounds.undecided || exact.is_none(), "{:?} {:?}", ray, triangle);
     let beyond = intersect(&Ray { t_max: f32::INFINITY, ..*ray }, triangle);
     let t = beyond.as_ref().map_or(f64::NAN, |hit| hit.t.to_f64());

@@ -1,5 +1,6 @@
-//! Corners on a lattice of 2^16 places an axis.
+//! Corners on a grid of 2^16 places an axis.
 
+use super::{Kernel, Storage};
 use accel::{Aabb, Corners, Vec3};
 use lanes::{ROW, Row, Simd};
 
@@ -8,7 +9,7 @@ const LAST: f32 = u16::MAX as f32;
 
 /// Evenly spaced places over a scene's bounds, on each axis with a spacing of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lattice {
+pub struct QuantisationGrid {
     low: Vec3,
     step: Vec3,
     /// Reciprocals of the steps, 0 on an axis without extent.
@@ -16,21 +17,12 @@ pub(super) struct Lattice {
 }
 
 /// The corners of 16 triangles, coordinate by coordinate.
-pub(super) type ShortRows = [[u16; ROW]; 9];
+type ShortRows = [[u16; ROW]; ROWS];
 
-impl Lattice {
-    /// Of `bounds`, which may be empty.
-    pub(super) fn over(bounds: &Aabb) -> Self {
-        if bounds.is_empty() {
-            return Self { low: Vec3::ZERO, step: Vec3::ZERO, inverse: [0.0; 3] };
-        }
-        // In `f64`, for the extent of finite corners may be beyond `f32`; the last place is not.
-        let extent = bounds.max.as_dvec3() - bounds.min.as_dvec3();
-        let step = (extent / f64::from(LAST)).as_vec3().min(Vec3::splat(f32::MAX / (LAST + 1.0)));
-        let inverse = |axis: usize| if step[axis] > 0.0 { 1.0 / f64::from(step[axis]) } else { 0.0 };
-        Self { low: bounds.min, step, inverse: [0, 1, 2].map(inverse) }
-    }
+/// One for each coordinate of the corners.
+const ROWS: usize = 9;
 
+impl QuantisationGrid {
     /// The nearest place on each axis.
     #[inline(always)]
     fn index(&self, point: Vec3) -> [u16; 3] {
@@ -42,28 +34,60 @@ impl Lattice {
         }
         index
     }
+}
 
-    /// The nearest point of the lattice; keeps the order of coordinates.
+impl Storage for QuantisationGrid {
+    type Unit = ShortRows;
+    const EMPTY: ShortRows = [[0; ROW]; ROWS];
+    const UNPACKED_ROWS: usize = ROWS;
+
     #[inline(always)]
-    pub(super) fn snap(&self, point: Vec3) -> Vec3 {
-        let [x, y, z] = self.index(point);
+    fn units<K: Kernel>() -> usize {
+        const { assert!(K::ROWS == ROWS, "the kernel packs corners") };
+        1
+    }
+
+    fn over(bounds: &Aabb) -> Self {
+        if bounds.is_empty() {
+            return Self { low: Vec3::ZERO, step: Vec3::ZERO, inverse: [0.0; 3] };
+        }
+        // In `f64`, for the extent of finite corners may be beyond `f32`; the last place is not.
+        let extent = bounds.max.as_dvec3() - bounds.min.as_dvec3();
+        let step = (extent / f64::from(LAST)).as_vec3().min(Vec3::splat(f32::MAX / (LAST + 1.0)));
+        let inverse = |axis: usize| if step[axis] > 0.0 { 1.0 / f64::from(step[axis]) } else { 0.0 };
+        Self { low: bounds.min, step, inverse: [0, 1, 2].map(inverse) }
+    }
+
+    #[inline(always)]
+    fn place(&self, corner: Vec3) -> Vec3 {
+        let [x, y, z] = self.index(corner);
         self.low + self.step * Vec3::new(x.into(), y.into(), z.into())
     }
 
-    /// Writes corners to lane `lane`.
     #[inline(always)]
-    pub(super) fn pack(&self, corners: &Corners, rows: &mut ShortRows, lane: usize) {
-        for (corner, rows) in corners.iter().zip(rows.chunks_exact_mut(3)) {
+    fn pack<K: Kernel>(&self, corners: &Corners, _: f32, group: &mut [ShortRows], lane: usize) {
+        for (corner, rows) in corners.iter().zip(group[0].chunks_exact_mut(3)) {
             for (row, index) in rows.iter_mut().zip(self.index(*corner)) {
                 row[lane] = index;
             }
         }
     }
 
-    /// Writes the corners in lanes `at .. at + LANES`, times a power of two, to nine rows: those of [`Lattice::snap`].
     #[inline(always)]
-    pub(super) fn unpack<S: Simd>(&self, s: S, from: &ShortRows, at: usize, scale: f32, to: &mut [Row]) {
-        for (k, (from, to)) in from.iter().zip(to).enumerate() {
+    fn kept(_: &[ShortRows]) -> Option<&[Row]> {
+        None
+    }
+
+    #[inline(always)]
+    fn rows<'a, S: Simd>(
+        &self,
+        s: S,
+        group: &'a [ShortRows],
+        at: usize,
+        scale: f32,
+        scratch: &'a mut [Row],
+    ) -> &'a [Row] {
+        for (k, (from, to)) in group[0].iter().zip(&mut *scratch).enumerate() {
             let from_low = s.mul(s.splat(self.step[k % 3]), s.load_short(&from[at..]));
             let mut value = s.add(s.splat(self.low[k % 3]), from_low);
             if scale != 1.0 {
@@ -71,16 +95,18 @@ impl Lattice {
             }
             s.store(value, &mut to.0[at..]);
         }
+        scratch
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Quantised;
     use super::*;
     use lanes::{Level, Task};
     use proptest::prelude::*;
 
-    struct Unpack<'a>(&'a Lattice, &'a ShortRows);
+    struct Unpack<'a>(&'a QuantisationGrid, &'a ShortRows);
 
     impl Task for Unpack<'_> {
         type Out = [Row; 9];
@@ -89,7 +115,7 @@ mod tests {
         fn run<S: Simd>(self, s: S) -> Self::Out {
             let mut rows = [Row([0.0; ROW]); 9];
             for at in (0..ROW).step_by(S::LANES) {
-                self.0.unpack(s, self.1, at, 1.0, &mut rows);
+                self.0.rows(s, std::slice::from_ref(self.1), at, 1.0, &mut rows);
             }
             rows
         }
@@ -110,17 +136,18 @@ mod tests {
             };
             let points: Vec<Vec3> = points.iter().map(place).collect();
             let bounds = Aabb::of_points(points.iter().copied());
-            let lattice = Lattice::over(&bounds);
+            let grid = QuantisationGrid::over(&bounds);
             let extent = bounds.extent();
             let most = bounds.min.abs().max(bounds.max.abs());
             let mut rows = [[0; ROW]; 9];
             for (lane, corners) in points.chunks_exact(3).enumerate() {
-                lattice.pack(&[corners[0], corners[1], corners[2]], &mut rows, lane);
+                let corners = [corners[0], corners[1], corners[2]];
+                grid.pack::<Quantised>(&corners, 1.0, std::slice::from_mut(&mut rows), lane);
             }
             for level in Level::here() {
-                let unpacked = level.run(Unpack(&lattice, &rows));
+                let unpacked = level.run(Unpack(&grid, &rows));
                 for (i, point) in points.iter().enumerate() {
-                    let snapped = lattice.snap(*point);
+                    let snapped = grid.place(*point);
                     let step = extent / LAST;
                     let bound = step * 0.51 + (most + extent) * f32::EPSILON;
                     prop_assert!(((snapped - *point).abs().cmple(bound)).all(), "{point} {snapped}");
@@ -135,13 +162,13 @@ mod tests {
 
     #[test]
     fn the_order_of_coordinates_stays() {
-        let lattice = Lattice::over(&Aabb { min: Vec3::splat(-3.0), max: Vec3::splat(5.0) });
-        let at = |i: i32| lattice.snap(Vec3::splat(i as f32 * 1e-5 - 3.0)).x;
+        let grid = QuantisationGrid::over(&Aabb { min: Vec3::splat(-3.0), max: Vec3::splat(5.0) });
+        let at = |i: i32| grid.place(Vec3::splat(i as f32 * 1e-5 - 3.0)).x;
         assert!((0..100_000).all(|i| at(i) <= at(i + 1)));
         assert_eq!(at(0), -3.0);
-        let flat = Lattice::over(&Aabb { min: Vec3::ONE, max: Vec3::ONE });
-        assert_eq!(flat.snap(Vec3::ONE), Vec3::ONE);
+        let flat = QuantisationGrid::over(&Aabb { min: Vec3::ONE, max: Vec3::ONE });
+        assert_eq!(flat.place(Vec3::ONE), Vec3::ONE);
         let widest = Aabb { min: Vec3::splat(f32::MIN), max: Vec3::splat(f32::MAX) };
-        assert!(Lattice::over(&widest).snap(widest.max).is_finite());
+        assert!(QuantisationGrid::over(&widest).place(widest.max).is_finite());
     }
 }

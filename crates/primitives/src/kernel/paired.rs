@@ -1,0 +1,15 @@
+//! The capability of testing rays and triangles in pairs.
+
+use super::Kernel;
+use lanes::Simd;
+use lanes::packet::{Lanes, Packet, Vec3Lanes};
+
+/// A kernel that takes a ray and a triangle in each lane. It packs the nine rows of corners as they are.
+pub trait Paired: Kernel {
+    /// Each ray against the triangle in its own lane, given by its corners, with the bits of [`Kernel::rays`].
+    fn each<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S>;
+}
+
+/// Every test is decided at once, and many rays and triangles are tested in pairs: for kernels that are [`Paired`].
+#[derive(Clone, Copy, Debug)]
+pub struct InPairs;

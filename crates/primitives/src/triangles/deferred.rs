@@ -1,0 +1,256 @@
+//! Tests of kernels that tell what is certain: hits wait until the nearest is known.
+
+#[cfg(doc)]
+use super::frame::Frame;
+use super::frame::Limits;
+use super::pending::{PendingHit, defer, lower_bound, pending};
+use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search};
+use super::{TriangleBlocks, next_lane};
+use crate::kernel::{Deferral, Deferred, Floats, Packed};
+use accel::{Nearest, Surface};
+use lanes::packet::{Bounds, Lanes, NearestPacket, Packet};
+use lanes::{ROW, Row, Scalar, Simd};
+
+/// As many rows as kernels pack, or more.
+const MOST_ROWS: usize = 16;
+
+impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
+    const LIMIT_ROWS: usize = 0;
+
+    /// Lets the nearest of the certain hits wait, and decides what may come before it.
+    #[inline(always)]
+    fn closest<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        mut set: Candidates,
+        ray: &OneRay<K>,
+        best: &mut Nearest,
+    ) {
+        while let Some(Next { slot: first, wanted }) = set.next::<S>() {
+            let bounds = K::bounds_one(s, &ray.prepared, blocks.packed(first), wanted, best.t);
+            let mut undecided = s.bits(bounds.undecided) & wanted;
+            if undecided == 0 {
+                continue;
+            }
+            let (mut low, mut high) = ([0.0; ROW], [0.0; ROW]);
+            s.store(bounds.low, &mut low);
+            s.store(bounds.high, &mut high);
+            let mut certain = if ray.near { undecided & s.bits(bounds.certain) } else { 0 };
+            while let Some(lane) = next_lane(&mut certain) {
+                if high[lane] < lower_bound(best) {
+                    PendingHit { slot: first + lane, low: low[lane], high: high[lane] }.wait(best);
+                    undecided &= !(1 << lane);
+                }
+            }
+            while let Some(lane) = next_lane(&mut undecided) {
+                let known = PendingHit::in_place_of(best).is_some_and(|pending| pending.slot == first + lane);
+                let behind = low[lane] > best.t;
+                if !known && !behind {
+                    blocks.decide_one(ray, first + lane, high[lane], best);
+                }
+            }
+        }
+    }
+
+    /// A certain hit needs no decision.
+    #[inline(always)]
+    fn any<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        mut set: Candidates,
+        ray: &OneRay<K>,
+        t_max: f32,
+    ) -> bool {
+        while let Some(Next { slot: first, wanted }) = set.next::<S>() {
+            let bounds = K::bounds_one(s, &ray.prepared, blocks.packed(first), wanted, t_max);
+            let mut undecided = s.bits(bounds.undecided) & wanted;
+            if undecided == 0 {
+                continue;
+            }
+            let certain = s.and(bounds.certain, s.lt(bounds.high, s.splat(t_max)));
+            if ray.near && s.bits(certain) & wanted != 0 {
+                return true;
+            }
+            while let Some(lane) = next_lane(&mut undecided) {
+                if blocks.decided(ray, first + lane, t_max).is_some() {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    #[inline(always)]
+    fn resolve(blocks: &TriangleBlocks<K>, ray: &OneRay<K>, best: &mut Nearest) {
+        blocks.resolve_one(ray, best);
+    }
+
+    #[inline(always)]
+    fn packet<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        slot: usize,
+        rays: &Rays<K, S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let bounds = K::bounds(s, &rays.prepared, blocks.packed(slot), best.t);
+        blocks.defer(s, slot, rays, &bounds, best);
+    }
+
+    /// Hits that are certain need no limits.
+    #[inline(always)]
+    fn limits<S: Simd>(_: &TriangleBlocks<K>, _: S, _: usize, _: Packed<'_>, _: &mut [Row]) {}
+
+    #[inline(always)]
+    fn packet_prepared<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        one: PreparedSlot<'_>,
+        rays: &Rays<K, S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let bounds = K::bounds_prepared(s, &rays.prepared, one.prepared, best.t);
+        blocks.defer(s, one.slot, rays, &bounds, best);
+    }
+
+    #[inline(always)]
+    fn resolve_packet<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        rays: &Rays<K, S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        blocks.resolve_lanes(s, rays, u32::MAX, best);
+    }
+}
+
+impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
+    /// The triangle in a slot.
+    #[inline(always)]
+    fn packed(&self, slot: usize) -> Packed<'_> {
+        Packed::new(self.units(slot), slot % ROW)
+    }
+
+    /// Decides one test, and where it hits the hit that waits too, unless that comes after it for certain.
+    #[inline(always)]
+    fn decide_one(&self, ray: &OneRay<K>, slot: usize, high: f32, best: &mut Nearest) {
+        if let Some(surface) = self.decided(ray, slot, best.t) {
+            let before = high < lower_bound(best);
+            if !before {
+                self.resolve_one(ray, best);
+            }
+            self.offer_one(ray, self.ids.get(slot), surface, best);
+        }
+    }
+
+    /// The hit on the triangle in a slot.
+    #[inline(always)]
+    fn decided(&self, ray: &OneRay<K>, slot: usize, t_max: f32) -> Option<Surface> {
+        let packed = self.packed(slot);
+        let lanes = K::decide_one(Scalar, &ray.prepared, packed, 1, t_max);
+        let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
+        (lanes.hit && self.holds(packed, slot, ray, surface)).then_some(surface)
+    }
+
+    /// Resolves the hit that waits, if one does.
+    #[inline(always)]
+    fn resolve_one(&self, ray: &OneRay<K>, best: &mut Nearest) {
+        if let Some(PendingHit { slot, .. }) = PendingHit::in_place_of(best) {
+            let lanes = K::decide_one(Scalar, &ray.prepared, self.packed(slot), 1, ray.ray.t_max);
+            debug_assert!(lanes.hit, "a certain hit");
+            *best = Nearest { t: lanes.t, object: self.ids.get(slot), u: lanes.u, v: lanes.v };
+        }
+    }
+
+    /// Decides the lanes that hit `object` at the same t as another object, and strikes them off `lanes`.
+    #[inline(always)]
+    fn take_ties<S: Simd>(
+        &self,
+        s: S,
+        object: u32,
+        lanes: &mut Lanes<S>,
+        rays: &Packet<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let mut ties = s.bits(best.ties(s, object, lanes));
+        if ties == 0 {
+            return;
+        }
+        let decided = s.bits(lanes.hit) & !ties;
+        let mut others = [Nearest::new(0.0); ROW];
+        best.store(s, &mut others);
+        let mut wins = 0;
+        while let Some(lane) = next_lane(&mut ties) {
+            let wins_here = self.triangles.precedes(&rays.ray(s, lane), object, others[lane].object);
+            wins |= u32::from(wins_here) << lane;
+        }
+        best.take(s, s.mask(wins), object, lanes);
+        lanes.hit = s.mask(decided);
+    }
+
+    /// Defers the certain hits that come before what is there for certain, and decides those that may. Certain hits of near
+    /// rays satisfy the invariant, see [`Frame::is_near`].
+    #[inline(always)]
+    fn defer<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        rays: &Rays<K, S>,
+        bounds: &Bounds<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        if s.bits(bounds.undecided) == 0 {
+            return;
+        }
+        let deferred = defer(s, slot, s.and(bounds.certain, rays.near), bounds, best);
+        let undecided = s.bits(bounds.undecided) & !s.bits(deferred);
+        if undecided != 0 {
+            self.decide(s, slot, rays, undecided, best);
+        }
+    }
+
+    #[inline(always)]
+    fn decide<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        rays: &Rays<K, S>,
+        undecided: u32,
+        best: &mut NearestPacket<S>,
+    ) {
+        let lanes = K::decide(s, &rays.prepared, self.packed(slot), undecided, best.t);
+        let hits = s.bits(lanes.hit);
+        if hits != 0 {
+            self.resolve_lanes(s, rays, hits, best);
+            let limits = Limits::of(&self.triangles.frame, &self.corners_of(slot));
+            let mut lanes = self.held(s, slot, rays, &limits, lanes);
+            let object = self.ids.get(slot);
+            self.take_ties(s, object, &mut lanes, &rays.rays, best);
+            best.offer(s, object, &lanes);
+        }
+    }
+
+    /// Resolves the pending hits of the lanes `which`; `best` holds their slots.
+    #[inline(always)]
+    fn resolve_lanes<S: Simd>(&self, s: S, rays: &Rays<K, S>, which: u32, best: &mut NearestPacket<S>) {
+        const { assert!(K::ROWS <= MOST_ROWS) };
+        let deferred = s.bits(pending(s, best)) & which;
+        if deferred == 0 {
+            return;
+        }
+        let mut slots = [0; ROW];
+        s.store_u(best.object, &mut slots);
+        let mut group = [Row([0.0; ROW]); MOST_ROWS];
+        let mut left = deferred;
+        while let Some(lane) = next_lane(&mut left) {
+            let slot = slots[lane] as usize;
+            for (to, from) in group.iter_mut().zip(self.units(slot)) {
+                to.0[lane] = from.0[slot % ROW];
+            }
+            slots[lane] = self.ids.get(slot);
+        }
+        let rays = self.triangles.frame.packet(s, &rays.rays);
+        let found = K::resolve(s, &rays, &group[..K::ROWS], deferred);
+        best.take_each(s, s.mask(deferred), &slots, &found);
+    }
+}
