@@ -10,6 +10,9 @@ use crate::{Aabb, Ray};
 /// ε
 const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 
+/// By how much `f64` rounds relatively.
+const DOUBLE_ROUNDING: f64 = 1.0 / (1u64 << 53) as f64;
+
 /// **1.** A ray is *near* if its origin is within this many E of the scene's centre, on each axis. Its hits are at
 /// most 4.5 E from the origin on each axis; rounding t, the relative origin, the product and the sum moves a hit's
 /// position by 15 ε·E in all.
@@ -62,6 +65,35 @@ const _: () = assert!(TRIM as f64 >= 64.0 * 8.0 * ROUNDING);
 /// have been widened before.
 pub const LOCAL_MARGIN: f32 = 4.0 * TRIM;
 const _: () = assert!(LOCAL_MARGIN >= 2.0 * TRIM);
+
+/// **11.** Where a ray is clipped by products with reciprocals, in `f64`, ray and box count as meeting if they miss by this part
+/// of t. A difference, a reciprocal and a product are off by 2^-53 each, on either side of the
+/// comparison: this is sixteen times as much, and small beside the slack (3) that is granted with it.
+pub const TOUCH: f64 = 1.0 / (1u64 << 46) as f64;
+const _: () = assert!(TOUCH >= 16.0 * 6.0 * DOUBLE_ROUNDING && TOUCH <= T_SLACK / 1024.0);
+
+/// **12.** A ray of a raster is off by this part of the sum of the sizes of its terms, component by component: a term is
+/// multiplied once and added twice, each of which rounds by ε, and the fourth ε is for the products of errors.
+pub const RASTER_ROUNDING: f64 = 4.0 * ROUNDING;
+const _: () = assert!(RASTER_ROUNDING >= 3.0 * ROUNDING * (1.0 + 3.0 * ROUNDING));
+
+/// **13.** And by this much on top, where its two products are denormal: each is then off by half of the least number
+/// above 0, 2^-150, at most. It is 500 times as much, which still is nothing in any scene.
+pub const RASTER_UNDERFLOW: f64 = f32::MIN_POSITIVE as f64 / (1 << 14) as f64;
+const _: () = assert!(RASTER_UNDERFLOW >= 2.0 * (f32::MIN_POSITIVE as f64 * ROUNDING));
+
+/// **14.** Where boxes are projected to a raster's image in `f64`, what comes of a dot product is off by this part of the sum
+/// of the sizes of its terms. A minor of the frame, its quotient by the determinant, the offset of a corner, the product and
+/// two sums round by 2^-53 each, about the middle of a box some twice as often: this is 32 of them.
+pub const PROJECTION: f64 = 32.0 * DOUBLE_ROUNDING;
+const _: () = assert!(PROJECTION >= 2.0 * 8.0 * DOUBLE_ROUNDING);
+
+/// **15.** Where a line's distance from a ball's centre is compared with its radius, in `f64`, the squares may differ by this
+/// part of the square of the radius and of the way from the ray's origin to the centre. The foot of the perpendicular comes
+/// from a quotient of two dot products, off by some ten roundings of 2^-53, and counts twice in the square; the radius has
+/// been rounded up before.
+pub const BALL: f64 = 1.0 / (1u64 << 46) as f64;
+const _: () = assert!(BALL >= 4.0 * 2.0 * 10.0 * DOUBLE_ROUNDING);
 
 /// The padding of objects' boxes in a scene with these bounds ([`PAD`]).
 pub fn pad_of(bounds: &Aabb) -> f32 {

@@ -1,6 +1,7 @@
 //! The methods the paper measures BMSSM against: a bounding volume for each object,
 //! tested for every ray, and detail tests of what remains (Skala 1993, §2–4).
 
+use accel::tolerance::{BALL, T_SLACK};
 use accel::{
     Aabb, Accel, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, Need, NoCount, Objects, Ray,
     RaySet, Scene, Vec3, vec_bytes,
@@ -40,7 +41,7 @@ impl Volume for Aabb {
     #[inline]
     fn may_meet(&self, ray: &Ray, t_max: f32) -> bool {
         self.overlap(ray.origin, ray.direction).is_some_and(|(near, far)| {
-            let slack = accel::tolerance::T_SLACK * near.abs().max(far.abs());
+            let slack = T_SLACK * near.abs().max(far.abs());
             near - slack <= f64::from(t_max) && far + slack >= f64::from(ray.t_min)
         })
     }
@@ -73,8 +74,8 @@ impl Volume for Ball {
         let d = ray.direction.as_dvec3();
         let foot = c.dot(d) / d.length_squared();
         let r = f64::from(self.radius);
-        let rounding = 1e-14 * c.length_squared();
-        (c - d * foot).length_squared() <= r * r * (1.0 + 1e-9) + rounding
+        let rounding = BALL * (r * r + c.length_squared());
+        (c - d * foot).length_squared() <= r * r + rounding
     }
 }
 

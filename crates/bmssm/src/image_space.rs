@@ -8,16 +8,9 @@
 
 mod corners;
 
+use accel::tolerance::{PROJECTION, RASTER_ROUNDING, RASTER_UNDERFLOW, T_SLACK};
 use accel::{Aabb, Projection, Raster};
 use std::ops::Range;
-
-/// Rounding of a raster's rays, relative to the sum of the sizes of its terms.
-const RAY_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
-/// Largest absolute rounding of `f32` products near zero.
-const UNDERFLOW: f64 = f32::MIN_POSITIVE as f64 / (1 << 14) as f64;
-/// Rounding of the projection itself and of `Aabb::overlap`, relative to the sum of the sizes of a dot
-/// product's terms.
-const ROUNDING: f64 = 1.0 / (1u64 << 48) as f64;
 
 type Vector = [f64; 3];
 
@@ -105,14 +98,15 @@ impl ImageSpace {
         let normals = [cross(right, down), cross(down, forward), cross(forward, right)];
         let determinant = dot(forward, normals[0]);
         let forms = normals.map(|n| n.map(|v| v / determinant));
-        let determinant_error = ROUNDING * dot_abs(forward, normals[0]) / determinant.abs();
+        let determinant_error = PROJECTION * dot_abs(forward, normals[0]) / determinant.abs();
 
         let base = match raster.projection {
             Projection::Parallel => origin,
             Projection::Perspective => forward,
         };
         let moved: Vector = [0, 1, 2].map(|a| {
-            (base[a].abs() + cols * right[a].abs() + rows * down[a].abs()) * RAY_ROUNDING + UNDERFLOW
+            (base[a].abs() + cols * right[a].abs() + rows * down[a].abs()) * RASTER_ROUNDING
+                + RASTER_UNDERFLOW
         });
         let along = forms.map(|form| dot_abs(form, moved));
         let (margin, t_error) = match raster.projection {
@@ -153,7 +147,7 @@ impl ImageSpace {
         };
         let mut near = [0.0; L];
         for lane in 0..L {
-            let least = t[lane] - t[lane].abs() * (self.t_error * 2.0 + 2.0 * accel::tolerance::T_SLACK);
+            let least = t[lane] - t[lane].abs() * (self.t_error * 2.0 + 2.0 * T_SLACK);
             let least = if least > 0.0 { least as f32 } else { 0.0 };
             // The next number down, if that isn't negative.
             near[lane] = f32::from_bits(least.to_bits().saturating_sub(1));
@@ -194,8 +188,8 @@ impl ImageSpace {
                 }
             }
             for lane in 0..L {
-                range.low[lane] = least[lane] - error[lane] * ROUNDING;
-                range.high[lane] = most[lane] + error[lane] * ROUNDING;
+                range.low[lane] = least[lane] - error[lane] * PROJECTION;
+                range.high[lane] = most[lane] + error[lane] * PROJECTION;
             }
         }
         let [mut t, cols, rows] = ranges;
@@ -222,7 +216,7 @@ impl ImageSpace {
         for lane in 0..L {
             let (center, half) = (point(&center, lane), point(&half, lane));
             let middle = dot(depth, center);
-            let error = (dot_abs(depth, center) + dot_abs(depth, half)) * ROUNDING;
+            let error = (dot_abs(depth, center) + dot_abs(depth, half)) * PROJECTION;
             least[lane] = middle - dot_abs(depth, half) - error;
             // NaN is not well before the eye.
             before[lane] = (least[lane] > 0.9375 * middle) & (least[lane] > 16.0 * error);
@@ -242,7 +236,7 @@ impl ImageSpace {
                     error += size * (center[axis].abs() + half[axis]);
                 }
                 let reach =
-                    (numerator.abs() + reach + error * ROUNDING) * from_least[lane] * (1.0 + ROUNDING);
+                    (numerator.abs() + reach + error * PROJECTION) * from_least[lane] * (1.0 + PROJECTION);
                 (span.low[lane], span.high[lane]) = (at - reach, at + reach);
             }
         }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::dda::Walk;
 use crate::grid::Grid;
-use crate::{Corners, Vec3};
+use crate::{Corners, Projection, Raster, Vec3};
 use glam::DVec3;
 
 /// Numbers in [−1, 1) from a fixed seed.
@@ -125,4 +125,135 @@ fn behind(limit_t: f64, limit_s: f64) -> usize {
 fn a_limit_too_small_ends_before_an_object_that_comes_first() {
     assert_eq!(behind(LIMIT_T, LIMIT_S), 0);
     assert!(behind(0.0, 0.0) > 0);
+}
+
+/// Rays through the edge of a box that count as missing it, of 20,000. All numbers are integers, so that the two planes
+/// which meet in the edge are met at the same t exactly.
+fn untouched(touch: f64) -> usize {
+    let mut numbers = Numbers(4);
+    let mut integer = |to: f32| f64::from((numbers.next() * to).abs().floor()) + 1.0;
+    let mut lost = 0;
+    for _ in 0..20_000 {
+        let (t, direction) = (integer(1e3), [integer(1e3), integer(1e3)]);
+        let at = direction.map(|d| (d * t) * (1.0 / d));
+        let (enters, leaves) = (at[0], at[1]);
+        lost += usize::from(enters > leaves + touch * enters.max(leaves));
+    }
+    lost
+}
+
+#[test]
+fn rays_that_touch_a_box_are_lost_without_a_tolerance() {
+    assert_eq!(untouched(TOUCH), 0);
+    assert!(untouched(0.0) > 100);
+}
+
+/// Components of rays of 5,000 images of about this size that are farther off than they may be.
+fn off(size: f32, rounding: f64, underflow: f64) -> usize {
+    let mut numbers = Numbers(5);
+    let mut off = 0;
+    for _ in 0..5000 {
+        let mut vector = || numbers.point() * size;
+        let raster = Raster {
+            projection: Projection::Parallel,
+            rows: 1000,
+            cols: 1000,
+            origin: vector() * 500.0,
+            forward: Vec3::Z,
+            right: vector(),
+            down: vector(),
+        };
+        let (row, col) = (numbers.next().abs() * 1000.0, numbers.next().abs() * 1000.0);
+        let (row, col) = (row as u32, col as u32);
+        let ray = raster.ray(row, col);
+        for axis in 0..3 {
+            let term = |v: Vec3, n: f64| f64::from(v[axis]) * n;
+            let [base, right, down] = [
+                term(raster.origin, 1.0),
+                term(raster.right, f64::from(col) + 0.5),
+                term(raster.down, f64::from(row) + 0.5),
+            ];
+            let allowed = (base.abs() + right.abs() + down.abs()) * rounding + underflow;
+            off += usize::from((f64::from(ray.origin[axis]) - (base + right + down)).abs() > allowed);
+        }
+    }
+    off
+}
+
+#[test]
+fn rays_of_an_image_are_off_by_more_than_a_bound_too_small() {
+    assert_eq!(off(1.0, RASTER_ROUNDING, RASTER_UNDERFLOW), 0);
+    assert!(off(1.0, ROUNDING / 4.0, RASTER_UNDERFLOW) > 100);
+}
+
+#[test]
+fn rays_of_a_tiny_image_are_off_by_more_than_any_part_of_their_terms() {
+    let size = f32::MIN_POSITIVE / (1 << 12) as f32;
+    assert_eq!(off(size, RASTER_ROUNDING, RASTER_UNDERFLOW), 0);
+    assert!(off(size, RASTER_ROUNDING, 0.0) > 100);
+}
+
+/// Points of 20,000 whose coordinate in a frame, computed in `f64`, is farther off than it may be. Integers give the
+/// exact one.
+fn displaced(rounding: f64) -> usize {
+    let mut numbers = Numbers(6);
+    let mut integer = || f64::from((numbers.next() * 4096.0).floor());
+    let mut lost = 0;
+    for _ in 0..20_000 {
+        let mut vector = || DVec3::new(integer(), integer(), integer());
+        let (forward, right, down, point) = (vector(), vector(), vector(), vector());
+        let normal = right.cross(down);
+        let determinant = forward.dot(normal);
+        if determinant == 0.0 {
+            continue;
+        }
+        let form = normal / determinant;
+        let size = (form * point).abs().element_sum();
+        // What is left over of the products, exact in integers of this size.
+        let exact = normal.dot(point);
+        let computed = form.dot(point) * determinant;
+        lost += usize::from((computed - exact).abs() > size * rounding * determinant.abs());
+    }
+    lost
+}
+
+#[test]
+fn projections_are_off_by_more_than_a_bound_too_small() {
+    assert_eq!(displaced(PROJECTION), 0);
+    assert!(displaced(DOUBLE_ROUNDING / 4.0) > 100);
+}
+
+/// Segments whose reciprocal isn't finite, of those with a component of 2^-e that is taken for this much at least.
+fn without_end(least: f32) -> usize {
+    let components = (100..149).map(|e| 2f64.powi(-e) as f32);
+    components.filter(|c| !(1.0 / c.max(least) * c.max(least)).is_finite()).count()
+}
+
+#[test]
+fn components_too_small_have_no_reciprocal() {
+    assert_eq!(without_end(PARALLEL as f32), 0);
+    assert!(without_end(0.0) > 0);
+}
+
+/// Lines that touch a ball and count as missing it, of 20,000. The distance is that of a multiple of (−4, 3) from lines
+/// along a multiple of (3, 4), so all numbers are integers.
+fn balls_missed(tolerance: f64) -> usize {
+    let mut numbers = Numbers(7);
+    let mut integer = |to: f32| f64::from((numbers.next() * to).floor());
+    let mut lost = 0;
+    for _ in 0..20_000 {
+        let (along, aside, length) = (integer(1e3), integer(1e3), integer(50.0) + 0.5);
+        let d = DVec3::new(3.0, 4.0, 0.0) * length;
+        let c = DVec3::new(3.0, 4.0, 0.0) * along + DVec3::new(-4.0, 3.0, 0.0) * aside;
+        let r2 = 25.0 * aside * aside;
+        let foot = c.dot(d) / d.length_squared();
+        lost += usize::from((c - d * foot).length_squared() > r2 + tolerance * (r2 + c.length_squared()));
+    }
+    lost
+}
+
+#[test]
+fn lines_that_touch_a_ball_are_lost_without_a_tolerance() {
+    assert_eq!(balls_missed(BALL), 0);
+    assert!(balls_missed(0.0) > 100);
 }

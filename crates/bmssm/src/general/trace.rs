@@ -3,13 +3,9 @@
 use super::General;
 use super::tree::{Node, WIDTH};
 use accel::grid::Segment;
-use accel::tolerance::LIMIT_S;
+use accel::tolerance::{LIMIT_S, PARALLEL};
 use accel::{Count, Nearest, Ray};
 use lanes::{Blocks, PackedObjects, ROW, Simd};
-
-/// A component of the way is at least this long, which is less than the margin of registration: so its
-/// reciprocal is finite and no product is NaN.
-const LEAST: f32 = 1.0 / (1 << 23) as f32;
 
 /// A ray in the unit coordinates of the scene, as `start + s·delta` with s from 0 to 1.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +36,7 @@ impl Way {
 
 #[inline(always)]
 pub(super) fn at_least(component: f32) -> f32 {
+    const LEAST: f32 = PARALLEL as f32;
     if component.abs() < LEAST { LEAST.copysign(component) } else { component }
 }
 

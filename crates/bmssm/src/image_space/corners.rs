@@ -1,6 +1,7 @@
 //! The image of a box near the eye or around it, by its corners.
 
-use super::{ROUNDING, Spans, Vector, dot, dot_abs};
+use super::{Spans, Vector, dot, dot_abs};
+use accel::tolerance::PROJECTION;
 
 /// A closed range of an image coordinate.
 pub(super) type Span = Spans<1>;
@@ -28,7 +29,7 @@ pub(super) fn about_the_eye(forms: &[Vector; 3], low: Vector, high: Vector) -> (
     let corners: [Corner; 8] = std::array::from_fn(|i| {
         let point: Vector = std::array::from_fn(|a| if i >> a & 1 == 0 { low[a] } else { high[a] });
         let [t, col, row] = forms.map(|form| dot(form, point));
-        let [te, ce, re] = forms.map(|form| dot_abs(form, point) * ROUNDING);
+        let [te, ce, re] = forms.map(|form| dot_abs(form, point) * PROJECTION);
         Corner { t, scaled: [col, row], t_error: te, scaled_error: [ce, re] }
     });
     let least_t = corners.iter().map(|c| c.t - c.t_error).fold(f64::INFINITY, f64::min);

@@ -3,11 +3,7 @@
 
 use accel::Ray;
 use accel::grid::Grid;
-use accel::tolerance::{INSET, LIMIT_S, LIMIT_T, PARALLEL, T_SLACK};
-
-/// Ray and box count as meeting if they miss by so little, relatively: more than the
-/// rounding of a product with a reciprocal.
-const TOUCH: f64 = 1e-14;
+use accel::tolerance::{INSET, LIMIT_S, LIMIT_T, PARALLEL, T_SLACK, TOUCH};
 
 /// Maps a scene's coordinates to the cells of a lattice.
 #[derive(Clone, Copy, Debug)]
