@@ -25,6 +25,33 @@ pub fn bytes(value: &str) -> Result<u128, String> {
     value.parse().map_err(|_| format!("'{value}' is not a number of bytes"))
 }
 
+/// The one of that name.
+///
+/// # Errors
+/// There is none.
+pub fn one_of<T>(
+    value: &str,
+    known: impl IntoIterator<Item = T>,
+    id: impl Fn(&T) -> &'static str,
+) -> Result<T, String> {
+    let mut ids = Vec::new();
+    for one in known {
+        if id(&one) == value {
+            return Ok(one);
+        }
+        ids.push(id(&one));
+    }
+    Err(none_of(value, ids))
+}
+
+/// `on` or `off`.
+///
+/// # Errors
+/// It is neither.
+pub fn switch(value: &str) -> Result<bool, String> {
+    one_of(value, [true, false], |on| if *on { "on" } else { "off" })
+}
+
 /// Says that a value is none of those known.
 pub fn none_of<'a>(value: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<_> = known.into_iter().collect();
@@ -39,6 +66,8 @@ mod tests {
     fn values_are_read_or_named() {
         assert_eq!((number("7", 1, 7), bytes("123")), (Ok(7), Ok(123)));
         assert_eq!(number("8", 1, 7).unwrap_err(), "'8' is not from 1 to 7");
+        assert_eq!((switch("on"), switch("off")), (Ok(true), Ok(false)));
+        assert_eq!(switch("yes").unwrap_err(), "'yes' is none of on, off");
         assert!(number("x", 1, 7).unwrap_err().contains("'x'") && bytes("-1").unwrap_err().contains("'-1'"));
     }
 }

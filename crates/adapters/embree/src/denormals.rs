@@ -13,6 +13,9 @@ pub enum Denormals {
 }
 
 impl Denormals {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Keep, Self::Flush];
+
     /// Its name as a setting.
     pub const fn id(self) -> &'static str {
         match self {

@@ -26,6 +26,9 @@ pub enum Quality {
 }
 
 impl Quality {
+    /// All of them, the fastest to build first.
+    pub const ALL: [Self; 3] = [Self::Low, Self::Medium, Self::High];
+
     /// Its name as a setting.
     pub const fn id(self) -> &'static str {
         match self {
@@ -33,11 +36,6 @@ impl Quality {
             Self::Medium => "medium",
             Self::High => "high",
         }
-    }
-
-    /// The quality of that name.
-    pub fn from_id(id: &str) -> Option<Self> {
-        [Self::Low, Self::Medium, Self::High].into_iter().find(|quality| quality.id() == id)
     }
 
     const fn code(self) -> RTCBuildQuality {

@@ -1,7 +1,7 @@
 //! What `bmssm-dense` can be told.
 
 use super::Resolution;
-use accel::settings::{self, none_of};
+use accel::settings::{self, none_of, one_of, switch};
 use lanes::Level;
 use primitives::KernelId;
 use std::fmt;
@@ -66,17 +66,8 @@ impl Settings {
             "kernel" => self.kernel = KernelId::parse(value)?,
             "simd" => self.simd = Level::parse(value)?,
             "resolution" => self.resolution = Resolution::parse(value)?,
-            "loop" => {
-                let known = [Loop::Appendix, Loop::Words].into_iter().find(|walk| walk.id() == value);
-                self.walk = known.ok_or_else(|| none_of(value, ["appendix", "words"]))?;
-            }
-            "mailbox" => {
-                self.mailbox = match value {
-                    "on" => true,
-                    "off" => false,
-                    _ => return Err(none_of(value, ["on", "off"])),
-                }
-            }
+            "loop" => self.walk = one_of(value, [Loop::Appendix, Loop::Words], |walk| walk.id())?,
+            "mailbox" => self.mailbox = switch(value)?,
             "memory" => self.memory = Some(settings::bytes(value)?),
             _ => return Err(none_of(name, Self::NAMES.map(|(name, _)| name))),
         }

@@ -2,7 +2,7 @@
 
 use crate::general::Storage;
 use crate::{general, raster};
-use accel::settings::{self, none_of, number};
+use accel::settings::{self, none_of, number, one_of};
 use lanes::{BLOCK, Level};
 use primitives::KernelId;
 use std::fmt;
@@ -66,11 +66,7 @@ impl Settings {
             "stretch" if value == "auto" => self.stretch = None,
             "stretch" => self.stretch = Some(number(value, BLOCK, general::MOST_STRETCH)?),
             "geometry" if value == "auto" => self.geometry = None,
-            "geometry" => {
-                let ids = Storage::ALL.map(Storage::id);
-                let found = Storage::ALL.into_iter().find(|storage| storage.id() == value);
-                self.geometry = Some(found.ok_or_else(|| none_of(value, ids))?);
-            }
+            "geometry" => self.geometry = Some(one_of(value, Storage::ALL, |storage| storage.id())?),
             "tile" => self.tile = number(value, 1, 16)?,
             "depth_bits" => self.depth_bits = number(value, 0, 8)?,
             "apart" => self.apart = number(value, 1, 1 << 16)?,

@@ -40,16 +40,14 @@ pub enum RegistryError {
         known: Vec<String>,
     },
     /// A value that makes no sense.
-    #[error("structure `{structure}`: `{setting}={value}`: must be {expected}")]
+    #[error("structure `{structure}`: `{setting}`: {problem}")]
     Value {
         /// The structure.
         structure: String,
         /// The setting.
         setting: String,
-        /// The value given.
-        value: String,
-        /// What would be understood.
-        expected: String,
+        /// What is wrong with the value.
+        problem: String,
     },
     /// A setting that the structure refused.
     #[error("structure {0}")]

@@ -112,23 +112,18 @@ impl<'a> Settings<'a> {
     /// A setting of any type that can be read from a word, or `None` where it isn't given.
     ///
     /// # Errors
-    /// [`RegistryError::Value`] with `expected` where `read` finds no value.
+    /// [`RegistryError::Value`] with what `read` says.
     pub fn read<T>(
         &self,
         name: &str,
-        expected: &str,
-        read: impl FnOnce(&str) -> Option<T>,
+        read: impl FnOnce(&str) -> Result<T, String>,
     ) -> Result<Option<T>, RegistryError> {
-        self.text(name)
-            .map(|value| {
-                read(value).ok_or_else(|| RegistryError::Value {
-                    structure: self.0.id.clone(),
-                    setting: name.to_owned(),
-                    value: value.to_owned(),
-                    expected: expected.to_owned(),
-                })
-            })
-            .transpose()
+        let error = |problem| RegistryError::Value {
+            structure: self.0.id.clone(),
+            setting: name.to_owned(),
+            problem,
+        };
+        self.text(name).map(|value| read(value).map_err(error)).transpose()
     }
 
     /// Names and values as written.
@@ -141,8 +136,7 @@ impl<'a> Settings<'a> {
     /// # Errors
     /// As [`Settings::read`].
     pub fn kernel(&self) -> Result<KernelId, RegistryError> {
-        let expected = format!("one of {}", KernelId::ALL.map(KernelId::id).join(", "));
-        Ok(self.read("kernel", &expected, KernelId::from_id)?.unwrap_or(KernelId::MollerTrumbore))
+        Ok(self.read("kernel", KernelId::parse)?.unwrap_or(KernelId::MollerTrumbore))
     }
 
     /// The instruction set; the widest of this machine by default.
@@ -150,17 +144,14 @@ impl<'a> Settings<'a> {
     /// # Errors
     /// As [`Settings::read`]; also for an instruction set that this machine lacks.
     pub fn simd(&self) -> Result<Level, RegistryError> {
-        let here: Vec<_> = Level::here().map(Level::id).collect();
-        let expected = format!("one of this machine's {}", here.join(", "));
-        let level =
-            self.read("simd", &expected, |id| Level::from_id(id).filter(|level| level.available()))?;
-        Ok(level.unwrap_or_else(Level::best))
+        Ok(self.read("simd", Level::parse)?.unwrap_or_else(Level::best))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use accel::settings::number;
 
     #[test]
     fn specs_are_read_and_written_back() {
@@ -182,8 +173,8 @@ mod tests {
         with("x:kernel=watertight", &|s| assert_eq!(s.kernel().unwrap(), KernelId::Watertight));
         with("x:kernel=water", &|s| assert!(s.kernel().unwrap_err().to_string().contains("moller-trumbore")));
         with("x:simd=portable", &|s| assert_eq!(s.simd().unwrap(), Level::Portable));
-        with("x:n=4", &|s| assert_eq!(s.read("n", "a number", |n| n.parse().ok()).unwrap(), Some(4)));
-        with("x:n=?", &|s| assert!(s.read("n", "a number", |n| n.parse::<u32>().ok()).is_err()));
+        with("x:n=4", &|s| assert_eq!(s.read("n", |n| number(n, 1, 9)).unwrap(), Some(4)));
+        with("x:n=?", &|s| assert!(s.read("n", |n| number(n, 1, 9)).is_err()));
     }
 
     #[test]

@@ -23,7 +23,7 @@ mod scalar;
 pub use portable::Portable;
 pub use scalar::Scalar;
 
-use accel::settings::none_of;
+use accel::settings::one_of;
 
 /// Lanes in a row of packed geometry: the widest implementation's width, a multiple of all.
 pub const ROW: usize = 16;
@@ -261,8 +261,7 @@ impl Level {
     /// # Errors
     /// There is none of that name here; the text says which there are.
     pub fn parse(value: &str) -> Result<Self, String> {
-        let level = Self::from_id(value).filter(|level| level.available());
-        level.ok_or_else(|| none_of(value, Self::here().map(Self::id)))
+        one_of(value, Self::here(), |level| level.id())
     }
 
     /// Whether this machine has it.

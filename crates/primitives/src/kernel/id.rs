@@ -1,6 +1,6 @@
 //! The names of kernels.
 
-use accel::settings::none_of;
+use accel::settings::one_of;
 
 /// Names a kernel in settings and records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -66,7 +66,7 @@ impl KernelId {
     /// # Errors
     /// There is none of that name; the text says which there are.
     pub fn parse(value: &str) -> Result<Self, String> {
-        Self::from_id(value).ok_or_else(|| none_of(value, Self::ALL.map(Self::id)))
+        one_of(value, Self::ALL, |kernel| kernel.id())
     }
 }
 

@@ -83,6 +83,7 @@ pub fn keep_to_one_thread() {
 mod library {
     use crate::registry::{RegistryError, Settings};
     use accel::Builder;
+    use accel::settings::one_of;
     use adapter_embree::{Denormals, EmbreeBuilder, Isa, PacketFlag, Quality, WrapperBuilder};
     pub use adapter_embree::{Variant, keep_to_one_thread};
 
@@ -91,12 +92,10 @@ mod library {
 
     pub fn make(variant: Variant, settings: &Settings) -> Result<Box<dyn Builder>, RegistryError> {
         let default = EmbreeBuilder::new(variant);
-        let quality = settings.read("quality", "low, medium or high", Quality::from_id)?;
-        let denormals = settings.read("denormals", "keep or flush", |id| {
-            [Denormals::Keep, Denormals::Flush].into_iter().find(|d| d.id() == id)
-        })?;
-        let isa = settings.read("isa", "sse2, sse4.2, avx, avx2 or avx512", Isa::from_id)?;
-        let coherent = settings.read("coherent", "rasters, on or off", PacketFlag::from_id)?;
+        let quality = settings.read("quality", |id| one_of(id, Quality::ALL, |quality| quality.id()))?;
+        let denormals = settings.read("denormals", |id| one_of(id, Denormals::ALL, |d| d.id()))?;
+        let isa = settings.read("isa", |id| one_of(id, Isa::ALL, |isa| isa.id()))?;
+        let coherent = settings.read("coherent", |id| one_of(id, PacketFlag::ALL, |flag| flag.id()))?;
         Ok(Box::new(EmbreeBuilder {
             quality: quality.unwrap_or(default.quality),
             denormals: denormals.unwrap_or(default.denormals),

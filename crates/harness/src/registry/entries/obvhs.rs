@@ -2,12 +2,13 @@
 
 use crate::registry::{Entry, RegistryError, Settings, Shape, Traits, look};
 use accel::Builder;
+use accel::settings::one_of;
 use adapter_obvhs::{ObvhsBuilder, Preset, Variant as Tree};
 
 fn obvhs(tree: Tree, settings: &Settings) -> Result<Box<dyn Builder>, RegistryError> {
-    let preset = settings.read("preset", "fastest, medium or very-slow", Preset::from_id)?;
-    let compressed = settings.read("triangles", "full or compressed", |id| {
-        ["full", "compressed"].iter().position(|known| *known == id).map(|place| place == 1)
+    let preset = settings.read("preset", |id| one_of(id, Preset::ALL, |preset| preset.id()))?;
+    let compressed = settings.read("triangles", |id| {
+        one_of(id, [false, true], |compressed| if *compressed { "compressed" } else { "full" })
     })?;
     Ok(Box::new(ObvhsBuilder {
         preset: preset.unwrap_or_default(),
