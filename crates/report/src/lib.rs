@@ -20,4 +20,4 @@ mod tests;
 pub mod trade;
 
 pub use markdown::markdown;
-pub use splice::{BEGIN, END, SpliceError, TRADE, splice, splice_at, summary};
+pub use splice::{BEGIN, END, EXTREMES, SpliceError, TRADE, splice, splice_at, summary};

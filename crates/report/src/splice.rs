@@ -13,6 +13,9 @@ pub const END: &str = "<!-- rayscale: end -->";
 /// The same for the summary of a trade.
 pub const TRADE: [&str; 2] = ["<!-- rayscale trade: begin -->", "<!-- rayscale trade: end -->"];
 
+/// The same for the table of extremes.
+pub const EXTREMES: [&str; 2] = ["<!-- rayscale extremes: begin -->", "<!-- rayscale extremes: end -->"];
+
 /// Why a text takes no summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SpliceError {

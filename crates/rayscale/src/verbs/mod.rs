@@ -6,6 +6,7 @@ pub mod compare;
 pub mod completions;
 pub mod diff;
 mod hits;
+mod judged;
 pub mod measure;
 pub mod paper;
 mod pictures;

@@ -1,13 +1,14 @@
 //! Pictures of a record's scenes, for those that are on this machine.
 
-use accel::{Hit, Need, RaySet, Scene};
+use super::judged;
+use accel::{Geometry, Hit, Need, RaySet, Scene};
 use harness::guard::guard;
 use harness::record::{Record, SceneEntry};
 use harness::registry::{self, guarded_build};
 use harness::units;
 use image::RgbaImage;
 use report::html::{Picture, Pictures};
-use report::picture::{Differences, Shading, difference, shade, write_png};
+use report::picture::{Compared, Differences, Shading, compare, difference, shade, write_png};
 use scenes::rays::perspective;
 use std::collections::BTreeMap;
 
@@ -20,23 +21,85 @@ const SHOWN: usize = 2;
 /// Pictures of every scene that can be had here and is, by its checksum, the one measured: the scene, and where
 /// structures that gave wrong answers see something else.
 pub fn pictures(record: &Record) -> Pictures {
-    let with_pictures = |entry: &SceneEntry| Some((entry.id.clone(), render(record, entry)?));
-    record.scenes.iter().filter_map(with_pictures).collect()
+    let mut all = Pictures::new();
+    for entry in &record.scenes {
+        let Some(scene) = measured(entry) else { continue };
+        if let Some(pictures) = render(record, entry, &scene) {
+            all.scenes.insert(entry.id.clone(), pictures);
+        }
+        all.worst.extend(worst(record, &scene));
+    }
+    all
 }
 
-fn render(record: &Record, entry: &SceneEntry) -> Option<Vec<Picture>> {
+/// The scene, if it can be had here and is the one measured.
+fn measured(entry: &SceneEntry) -> Option<Scene> {
     let scene = scenes::load(&entry.id.parse().ok()?).ok()?;
-    if scenes::checksum(&scene.geometry) != entry.checksum {
-        return None;
+    (scenes::checksum(&scene.geometry) == entry.checksum).then_some(scene)
+}
+
+/// The structures whose images have the most visible errors, each where it is worst, enlarged.
+fn worst(record: &Record, scene: &Scene) -> Vec<Picture> {
+    if !matches!(scene.geometry, Geometry::Triangles(_)) {
+        return Vec::new();
     }
     let raster = perspective(&scene.view, ROWS, COLS);
     let rays = RaySet::Raster(raster);
-    let right = hits("ssm", &scene, &rays)?;
+    let exact = judged::exact(scene, &rays);
+    let mut all: Vec<(&str, Compared)> = Vec::new();
+    // Those that test every object would take minutes and answer as others of the same kernel do.
+    for structure in record.structure_ids().into_iter().filter(|id| !is_linear(id)) {
+        let Some(found) = hits(structure, scene, &rays) else { continue };
+        let kinds = judged::kinds(scene, &rays, &found, &exact);
+        let compared = compare(&scene.geometry, &raster, [&found, &exact], kinds, Shading::Light);
+        let wrong = compared.wrong.counts.visible();
+        // Structures of one kernel are wrong in the same places.
+        if wrong > 0 && !all.iter().any(|(_, known)| known.wrong.counts == compared.wrong.counts) {
+            all.push((structure, compared));
+        }
+    }
+    all.sort_by_key(|(_, compared)| std::cmp::Reverse(compared.wrong.counts.visible()));
+    all.truncate(SHOWN);
+    all.iter().filter_map(|(structure, compared)| enlarged(&scene.id, structure, compared)).collect()
+}
+
+/// Pixels of a side of what is enlarged, and how many times.
+const ENLARGED: (u32, u32) = (24, 8);
+
+fn enlarged(scene: &str, structure: &str, compared: &Compared) -> Option<Picture> {
+    let (side, times) = ENLARGED;
+    let (x, y) = compared.worst(side)?;
+    let wrong = &compared.wrong;
+    let caption = format!(
+        "{structure} on {scene}: of {} pixels {} holes, {} phantoms, {} displaced, {} on another object in the same place; shading off by \
+         {} of 255 at most, {} on average, depth by {} of the extent at most, {} on average. Shown: {side} × {side} pixels from \
+         column {x}, row {y}, {times} times as large",
+        units::count(wrong.counts.rays),
+        wrong.counts.holes,
+        wrong.counts.phantoms,
+        wrong.counts.displaced,
+        wrong.counts.swapped,
+        units::figure(wrong.shading_largest),
+        units::figure(wrong.shading_mean),
+        units::figure(wrong.depth_largest),
+        units::figure(wrong.depth_mean),
+    );
+    Some(Picture { png: png(&compared.enlarged((x, y), side, times))?, caption })
+}
+
+fn is_linear(structure: &str) -> bool {
+    registry::parse(structure).is_ok_and(|choice| choice.entry.traits.linear)
+}
+
+fn render(record: &Record, entry: &SceneEntry, scene: &Scene) -> Option<Vec<Picture>> {
+    let raster = perspective(&scene.view, ROWS, COLS);
+    let rays = RaySet::Raster(raster);
+    let right = hits("ssm", scene, &rays)?;
     let picture = shade(&scene.geometry, &raster, &right, Shading::Light);
     let mut all =
         vec![Picture { png: png(&picture)?, caption: format!("{}, as its primary rays see it", entry.id) }];
     for structure in wrong_most_often(record, &entry.id) {
-        let Some(found) = hits(structure, &scene, &rays) else { continue };
+        let Some(found) = hits(structure, scene, &rays) else { continue };
         let (marked, differences) = mark(&picture, &found, &right);
         if differences.total() > 0 {
             let Differences { pixels, missed, invented, object, .. } = differences;
@@ -111,9 +174,9 @@ mod tests {
         let mut record = testing::record();
         record.scenes[0].id = "unit-one".into();
         let unit = scenes::load(&"unit-one".parse().unwrap()).unwrap();
-        assert!(pictures(&record).is_empty(), "another checksum, and a scene that nobody knows");
+        assert!(pictures(&record).scenes.is_empty(), "another checksum, and a scene that nobody knows");
         record.scenes[0].checksum = scenes::checksum(&unit.geometry);
-        let found = pictures(&record);
+        let found = pictures(&record).scenes;
         assert_eq!(found.len(), 1);
         assert!(found["unit-one"][0].png.starts_with(b"\x89PNG"));
     }

@@ -1,11 +1,12 @@
 //! `rayscale render`
 
 use super::hits::trace;
+use super::judged;
 use crate::console::Console;
 use crate::error::Error;
 use crate::options::{CameraOptions, KernelOptions, shadings, structures};
 use crate::verb::{Outcome, Verb};
-use accel::{Raster, RaySet, Scene};
+use accel::{Geometry, Hit, Raster, RaySet, Scene};
 use clap::{Args, ValueEnum};
 use harness::output::write_whole;
 use harness::registry::Choice;
@@ -15,7 +16,7 @@ use report::picture::{self, Differences, Shading, difference, shade};
 use scenes::SceneSpec;
 use scenes::rays::{parallel, perspective};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// Render a scene to a PNG by any structure, or show where two structures' hits differ
@@ -29,12 +30,18 @@ With --against, the picture is grey and the pixels that differ in any bit are in
 vermilion where the first structure misses a hit, blue where it invents one, orange where it
 hits another object, sky blue where it hits the same object elsewhere. Exit code 1 if any does.
 
+With --against exact, exact arithmetic judges every pixel: vermilion for holes, blue for phantoms,
+sky blue for hits displaced by more than 10^-5 of the scene, orange for another object in the same
+place, which nobody sees. The picture itself is written beside it, as NAME.picture.png, and how far
+shading and depth are off is said. Exit code 1 if a pixel is wrong in a way that shows.
+
 Examples:
   rayscale render bumps-200k --out bumps.png
   rayscale render model.obj --structure ssm --shade normal --size 1024x768 --out model.png
   rayscale render model.obj --up z --eye 4,-3,2 --target 0,0,1 --fov 30 --out model.png
   rayscale render sponza --projection parallel --shade object --out sponza.png
-  rayscale render stadium --structure ssm:kernel=watertight --against brute --out difference.png")]
+  rayscale render stadium --structure ssm:kernel=watertight --against brute --out difference.png
+  rayscale render needles --structure bmssm:kernel=quantised --against exact --out difference.png")]
 pub struct Render {
     /// Scene: an id, a definition or a mesh
     scene: String,
@@ -48,7 +55,7 @@ pub struct Render {
     structure: String,
     #[command(flatten)]
     kernel: KernelOptions,
-    /// Another structure: show where its hits differ
+    /// Another structure: show where its hits differ; or `exact`: show what is wrong
     #[arg(long, value_name = "ID[:NAME=VALUE,…]", value_parser = structures(), hide_possible_values = true)]
     against: Option<String>,
     /// Pixels: columns x rows, or one number for both
@@ -77,6 +84,9 @@ struct Size {
     rows: u32,
 }
 
+/// What `--against` names to have exact arithmetic judge.
+const EXACT: &str = "exact";
+
 /// Pixels that a picture may have: their hits and colours take 2 GiB.
 const MOST_PIXELS: u64 = 1 << 26;
 
@@ -101,7 +111,9 @@ impl Verb for Render {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
         let choice = self.kernel.choose_one(&self.structure)?;
         let plain = KernelOptions::default();
-        let against = self.against.as_deref().map(|text| plain.choose_one(text)).transpose()?;
+        let judged = self.against.as_deref() == Some(EXACT);
+        let against = self.against.as_deref().filter(|_| !judged);
+        let against = against.map(|text| plain.choose_one(text)).transpose()?;
         let spec: SceneSpec = self.camera.named(&self.scene).parse()?;
         let scene = console.scene(&spec)?;
         let raster = self.raster(&scene);
@@ -124,6 +136,9 @@ impl Verb for Render {
             choice.spec,
             self.out.display()
         );
+        if judged {
+            return self.judge(console, &scene, &raster, &first.hits, (facts, text));
+        }
         let Some(against) = against else {
             self.write(&picture)?;
             console.result(&facts, text)?;
@@ -150,11 +165,64 @@ impl Render {
         }
     }
 
-    fn write(&self, picture: &RgbaImage) -> Result<(), Error> {
-        let written =
-            write_whole(&self.out, |out| picture::write_png(picture, out).map_err(std::io::Error::other));
-        written.map_err(|error| Error::io(self.out.display(), error))
+    /// Shows what is wrong with the hits by exact arithmetic, and how far the picture is off.
+    fn judge(
+        &self,
+        console: &Console,
+        scene: &Scene,
+        raster: &Raster,
+        hits: &[Option<Hit>],
+        (mut facts, mut text): (serde_json::Value, String),
+    ) -> Result<Outcome, Error> {
+        if !matches!(scene.geometry, Geometry::Triangles(_)) {
+            return Err(Error::usage(
+                format!("{}: exact arithmetic knows triangles only", scene.id),
+                "compare with a structure instead, such as `brute`",
+            ));
+        }
+        let rays = RaySet::Raster(*raster);
+        let compared = console.in_pool(0, || {
+            let exact = judged::exact(scene, &rays);
+            let kinds = judged::kinds(scene, &rays, hits, &exact);
+            picture::compare(&scene.geometry, raster, [hits, &exact], kinds, self.shade)
+        })?;
+        self.write(&compared.marked)?;
+        let beside = self.out.with_extension("picture.png");
+        write_picture(&beside, &compared.picture)?;
+        let wrong = &compared.wrong;
+        facts["against"] = EXACT.into();
+        facts["picture"] = serde_json::json!(beside);
+        facts["wrong"] = serde_json::json!(wrong);
+        // Writing to a string does not fail.
+        let _ = write!(
+            text,
+            "\n{} of {} pixels are wrong in a way that shows: {} holes, {} phantoms, {} displaced; {} show another object in the same \
+             place\nShading is off by {} of 255 at most, {} on average; depth by {} of the scene's extent at most, {} on average\n\
+             The picture: {}",
+            units::count(wrong.counts.visible()),
+            units::count(wrong.counts.rays),
+            wrong.counts.holes,
+            wrong.counts.phantoms,
+            wrong.counts.displaced,
+            wrong.counts.swapped,
+            units::figure(wrong.shading_largest),
+            units::figure(wrong.shading_mean),
+            units::figure(wrong.depth_largest),
+            units::figure(wrong.depth_mean),
+            beside.display(),
+        );
+        console.result(&facts, text)?;
+        Ok(if wrong.counts.visible() == 0 { Outcome::Done } else { Outcome::Failed })
     }
+
+    fn write(&self, picture: &RgbaImage) -> Result<(), Error> {
+        write_picture(&self.out, picture)
+    }
+}
+
+fn write_picture(path: &Path, picture: &RgbaImage) -> Result<(), Error> {
+    let written = write_whole(path, |out| picture::write_png(picture, out).map_err(std::io::Error::other));
+    written.map_err(|error| Error::io(path.display(), error))
 }
 
 fn in_words(first: &Choice, other: &Choice, differences: &Differences) -> String {

@@ -8,7 +8,7 @@ use crate::verb::{Outcome, Verb, command_line};
 use clap::Args;
 use harness::measure::Options;
 use harness::output::write_whole;
-use report::{TRADE, splice_at};
+use report::{EXTREMES, TRADE, splice_at};
 use scenes::rays::RaysId;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ use trade::{ORDINARY, Plan, TIMED};
   rayscale trade --out trade
   rayscale trade --scene sponza --scene bumps-20k --structure ssm:kernel=exact --structure embree --out trade
   rayscale trade --scene sponza --curve sponza --extremes 4000 --out trade
-  rayscale trade --record trade/trade.json --out trade --splice README.md")]
+  rayscale trade --record trade/trade.json --out trade --splice README.md --splice docs/accuracy.md")]
 pub struct Trade {
     #[command(flatten)]
     selection: Selection,
@@ -52,9 +52,10 @@ pub struct Trade {
     /// Compare nothing: make the page and the plots from this record
     #[arg(long, value_name = "FILE", conflicts_with_all = ["curve", "extremes", "scenes", "structures"])]
     record: Option<PathBuf>,
-    /// Write the summary and the chart between the markers of this text too
+    /// Write the summary with the chart, or the table of extremes, between the markers of this text too, whichever it has; may
+    /// be repeated
     #[arg(long, value_name = "FILE")]
-    splice: Option<PathBuf>,
+    splice: Vec<PathBuf>,
 }
 
 impl Verb for Trade {
@@ -69,7 +70,7 @@ impl Verb for Trade {
         if let Some(curve) = report::trade::curve_svg(&trade) {
             self.write("curve.svg", &curve)?;
         }
-        if let Some(path) = &self.splice {
+        for path in &self.splice {
             self.splice_into(&trade, path)?;
         }
         console.result(&trade, report::trade::ordinary(&trade.rows).text())?;
@@ -135,10 +136,18 @@ impl Trade {
     fn splice_into(&self, trade: &trade::Trade, path: &Path) -> Result<(), Error> {
         let text = std::fs::read_to_string(path).map_err(|error| Error::io(path.display(), error))?;
         let chart = self.out.join("curve.svg").display().to_string();
-        let Some(summary) = report::trade::summary(trade, &chart) else {
-            return Err(Error::usage("a record of old has no conclusions", "make a new one"));
+        let (summary, markers) = if text.contains(EXTREMES[0]) {
+            (report::trade::extremes(trade), EXTREMES)
+        } else {
+            (report::trade::summary(trade, &chart).unwrap_or_default(), TRADE)
         };
-        let text = splice_at(&text, &summary, TRADE)
+        if summary.is_empty() {
+            return Err(Error::usage(
+                format!("{}: the record has nothing to write there", path.display()),
+                "make a new one, with --extremes where extremes are wanted",
+            ));
+        }
+        let text = splice_at(&text, &summary, markers)
             .map_err(|error| Error::usage(format!("{}: {error}", path.display()), "put the two lines in"))?;
         let written: Result<(), io::Error> = write_whole(path, |out| out.write_all(text.as_bytes()));
         written.map_err(|error| Error::io(path.display(), error))

@@ -42,6 +42,24 @@ fn equal_structures_have_no_difference_and_different_ones_end_with_1() {
 }
 
 #[test]
+fn pictures_are_judged_by_exact_arithmetic() {
+    let folder = Folder::new();
+    let judged = |structure: &str| {
+        let mut command = rayscale(["render", "bumps-2k", "--out", "out.png", "--size", "64", "--json"]);
+        command.args(["--structure", structure, "--against", "exact"]).current_dir(folder.folder()).assert()
+    };
+    let wrong = |out: &[u8]| serde_json::from_slice::<serde_json::Value>(out).expect("JSON")["wrong"].clone();
+    let right = judged("bmssm:kernel=exact").code(0).get_output().stdout.clone();
+    assert_eq!((&wrong(&right)["colours"], &wrong(&right)["depth_largest"]), (&0.into(), &0.0.into()));
+    assert!(folder.path("out.picture.png").exists());
+    // A box in place of every triangle shows.
+    let boxes = wrong(&judged("ssm:kernel=box").code(1).get_output().stdout.clone());
+    let counts = &boxes["counts"];
+    assert!(counts["phantoms"].as_u64() > Some(100) && counts["rays"] == 64 * 64, "{boxes}");
+    assert!(boxes["shading_largest"].as_f64() > Some(10.0), "{boxes}");
+}
+
+#[test]
 fn scenes_are_listed_described_and_exported() {
     let folder = Folder::new();
     rayscale(["scenes"]).assert().success().stdout(contains("stadium").and(contains("small-{objects}")));

@@ -142,7 +142,7 @@ fn doubled_triangles_are_no_errors_unless_it_matters_which_is_hit() {
     let doubled = folder.read("scene.obj");
     let faces: String =
         doubled.lines().filter(|line| line.starts_with('f')).map(|line| format!("{line}\n")).collect();
-    std::fs::write(folder.folder().join("doubled.obj"), format!("{doubled}\n{faces}")).unwrap();
+    folder.write("doubled.obj", format!("{doubled}\n{faces}"));
     let fitting = |scene: &str, more: &[&str]| {
         let mut command = rayscale(["recommend", scene, "--rays", "random", "--max-error", "100", "--json"]);
         let out =

@@ -36,8 +36,27 @@ impl Render for Picture {
     }
 }
 
-/// Pictures by scene.
-pub type Pictures = BTreeMap<String, Vec<Picture>>;
+/// Pictures of a report.
+#[derive(Clone, Debug, Default)]
+pub struct Pictures {
+    /// By scene.
+    pub scenes: BTreeMap<String, Vec<Picture>>,
+    /// The places where structures are most wrong, enlarged.
+    pub worst: Vec<Picture>,
+}
+
+impl Pictures {
+    /// None.
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+impl<const N: usize> From<[(String, Vec<Picture>); N]> for Pictures {
+    fn from(scenes: [(String, Vec<Picture>); N]) -> Self {
+        Self { scenes: scenes.into(), worst: Vec::new() }
+    }
+}
 
 /// No request can leave the page, whatever it holds.
 const POLICY: &str =
@@ -111,6 +130,7 @@ pub fn html(record: &Record, pictures: &Pictures) -> String {
                 },
             )
         }),
+        worst(pictures),
         section("all", "Everything measured", sections::all_cells(record, &styles)),
         section("structures-section", "Structures", sections::structures(record, &styles)),
         section("machine", "Machine, settings, and how to reproduce", sections::machine(record)),
@@ -118,8 +138,24 @@ pub fn html(record: &Record, pictures: &Pictures) -> String {
     page(record, &styles, &sections.into_iter().flatten().collect::<Vec<_>>()).into_string()
 }
 
+/// Where images are wrong, enlarged.
+fn worst(pictures: &Pictures) -> Option<Section> {
+    let body = || {
+        markup! {
+            p.note {
+                "Images judged by exact arithmetic. Each row: as the structure sees it, as it is, and what is wrong, vermilion for \
+                 holes, blue for phantoms, sky blue for hits that are displaced, orange for another object in the same place, \
+                 which nobody sees."
+            }
+            @for picture in &pictures.worst { (picture) }
+        }
+    };
+    let section = || Section { id: "worst", title: "Where images are wrong", body: body() };
+    (!pictures.worst.is_empty()).then(section)
+}
+
 fn scenes(record: &Record, pictures: &Pictures, styles: &Styles) -> Markup {
-    let of = |scene: &str| pictures.get(scene).map_or(&[][..], Vec::as_slice);
+    let of = |scene: &str| pictures.scenes.get(scene).map_or(&[][..], Vec::as_slice);
     markup! {
         p.note {
             "Bars show medians; the line on a bar goes from the least to the greatest sample; torn bars are longer than \

@@ -22,15 +22,25 @@ pub fn full() -> Record {
 
 fn pictures() -> Pictures {
     let picture = Picture { png: vec![1, 2, 3], caption: "one & only".into() };
-    [("one".to_owned(), vec![picture])].into()
+    let worst = vec![Picture { caption: "where it is worst".into(), ..picture.clone() }];
+    Pictures { worst, ..[("one".to_owned(), vec![picture])].into() }
 }
 
 #[test]
 fn every_section_is_there_and_in_the_navigation() {
     let page = html(&full(), &pictures());
-    for id in
-        ["summary", "speed", "memory", "scenes", "ratio", "errors", "all", "structures-section", "machine"]
-    {
+    for id in [
+        "summary",
+        "speed",
+        "memory",
+        "scenes",
+        "ratio",
+        "errors",
+        "worst",
+        "all",
+        "structures-section",
+        "machine",
+    ] {
         assert!(page.contains(&format!("<section id=\"{id}\">")), "{id}");
         assert!(page.contains(&format!("<a href=\"#{id}\">")), "{id}");
     }

@@ -91,7 +91,7 @@ pub fn difference(
     (out, differences)
 }
 
-fn pale(Rgba([r, g, b, alpha]): Rgba<u8>) -> Rgba<u8> {
+pub(super) fn pale(Rgba([r, g, b, alpha]): Rgba<u8>) -> Rgba<u8> {
     let grey = (u32::from(r) + u32::from(g) + u32::from(b)) / 3;
     let grey = (155 + grey * 90 / 255) as u8;
     Rgba([grey, grey, grey, alpha])

@@ -2,9 +2,11 @@
 
 mod colour;
 mod difference;
+mod judged;
 mod shade;
 
 pub use difference::{Differences, difference};
+pub use judged::{Compared, Wrongness, compare};
 pub use shade::{Shading, shade};
 
 use image::RgbaImage;

@@ -98,7 +98,7 @@ impl Depths {
     }
 }
 
-fn depth(ray: &Ray, hit: &Hit) -> f32 {
+pub(super) fn depth(ray: &Ray, hit: &Hit) -> f32 {
     hit.t * ray.direction.as_dvec3().length() as f32
 }
 
