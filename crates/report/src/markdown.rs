@@ -185,7 +185,7 @@ fn left_out(out: &mut String, record: &Record) {
         let error = cell.outcome.reason().unwrap_or_default().to_owned();
         if !said.contains(&(&cell.scene, &cell.structure, error.clone())) {
             let [scene, rays, reason] = [&cell.scene, &cell.rays, &error].map(|text| escape(text));
-            let _ = writeln!(out, "- {} on {scene} {rays}: {reason}", code(&cell.structure));
+            let _ = writeln!(out, "- {} on {scene} {rays}: {reason}", escape(&cell.structure));
             said.push((&cell.scene, &cell.structure, error));
         }
     }

@@ -45,7 +45,7 @@ impl Log {
     pub fn ticks(&self, vertical: bool, label: impl Fn(f64) -> String) -> Vec<(f64, String)> {
         // From many to few: 1-2-3-4-6-8 (for less than a decade), 1-2-5, powers of ten, every second one, …
         let steps: [&[f64]; 4] = [&[1.0, 2.0, 3.0, 4.0, 6.0, 8.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
-        let sparse = [2, 3, 4, 5, 6, 7, 8, 16, 32, 64, 128].map(|every| (steps[3], every));
+        let sparse = [2, 3, 4, 5, 6, 7, 8, 16, 32, 64, 128, 256].map(|every| (steps[3], every));
         let candidates = steps.iter().map(|s| (*s, 1)).chain(sparse);
         for (mantissas, every) in candidates {
             let ticks = self.all(mantissas, every, &label);

@@ -40,7 +40,7 @@ impl Sheet {
     pub fn file(&self) -> String {
         let size = self.plots.first().map_or((0.0, 0.0), |plot| plot.size);
         let columns = self.columns.min(self.plots.len()).max(1);
-        let full = (columns as f64 * size.0).max(360.0) + 2.0 * MARGIN;
+        let full = (columns as f64 * size.0).max(360.0).max(width(&self.note)) + 2.0 * MARGIN;
         let mut svg = Svg::default();
         let top = self.head(&mut svg, full);
         for (i, plot) in self.plots.iter().enumerate() {
