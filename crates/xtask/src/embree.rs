@@ -12,6 +12,9 @@ use crate::shell::output;
 /// The file that the linker looks for.
 const LINK_NAME: &str = "libembree4.so";
 
+/// Name of the folder that holds the wheel's library, for each version its own.
+pub const FOLDER: &str = "embreex-4.4.0.post1";
+
 const WHEEL: Wheel = Wheel {
     requirement: "embreex==4.4.0.post1",
     tags: ["3.11", "cp311", "manylinux_2_28_x86_64"],
@@ -31,7 +34,7 @@ pub struct Embree {
 /// # Errors
 /// One sentence saying why there is none.
 pub fn find_or_install(places: &Places) -> Result<Embree, String> {
-    if let Some(embree) = recorded(places).or_else(on_this_system) {
+    if let Some(embree) = recorded(places).or_else(|| fetched_before(places)).or_else(on_this_system) {
         return Ok(embree);
     }
     if !cfg!(target_os = "linux") {
@@ -67,6 +70,11 @@ fn recorded(places: &Places) -> Option<Embree> {
     lib.join(LINK_NAME).exists().then_some(Embree { lib, source })
 }
 
+fn fetched_before(places: &Places) -> Option<Embree> {
+    let lib = places.setup.join(FOLDER);
+    lib.join(LINK_NAME).exists().then(|| Embree { lib, source: format!("wheel {}", WHEEL.requirement) })
+}
+
 fn on_this_system() -> Option<Embree> {
     let arch = std::env::consts::ARCH;
     let folders = [
@@ -97,7 +105,7 @@ fn from_wheel(places: &Places) -> Result<Embree, String> {
         .ok_or("the wheel has no libembree4")?;
     loads(&library)?;
     link(&library, &unpacked)?;
-    let lib = places.setup.join("embree");
+    let lib = places.setup.join(FOLDER);
     if lib.exists() {
         std::fs::remove_dir_all(&lib).map_err(|e| e.to_string())?;
     }

@@ -23,6 +23,7 @@ mod package;
 mod pip;
 mod places;
 mod setup;
+mod share;
 mod shell;
 mod structure;
 mod tally;
