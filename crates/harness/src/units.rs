@@ -164,7 +164,7 @@ mod tests {
         ] {
             assert_eq!(figure(v), text);
         }
-        assert_eq!(significant(0.123_45, 4), "0.1234");
+        assert_eq!(significant(0.123_45, 4), "0.1235");
         for (v, text) in [(1500.0, "1.5k"), (2e6, "2M"), (1.234e9, "1.23G"), (950.0, "950")] {
             assert_eq!(short(v), text);
         }
