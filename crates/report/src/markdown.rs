@@ -178,7 +178,7 @@ fn left_out(out: &mut String, record: &Record) {
     }
     out.push_str("## Failed and left out\n\n");
     for skipped in &record.skipped {
-        let _ = writeln!(out, "- {} was left out: {}", escape(&skipped.id), escape(&skipped.reason));
+        let _ = writeln!(out, "- {} was left out: {}", code(&skipped.id), escape(&skipped.reason));
     }
     let mut said: Vec<(&str, &str, String)> = Vec::new();
     for cell in failed {

@@ -35,21 +35,6 @@ const ROW: f64 = TEXT + 6.0;
 /// Height of a chart's name.
 const NAME: f64 = 20.0;
 
-/// Breaks a text between words into lines no wider than `room`, save single words that are.
-fn lines(text: &str, room: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if width(line) + width(" ") + width(word) <= room => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
 impl Sheet {
     /// The file.
     pub fn file(&self) -> String {
@@ -95,9 +80,9 @@ impl Sheet {
                 x += room;
             }
         }
-        for line in lines(&self.note, full - 2.0 * MARGIN) {
+        if !self.note.is_empty() {
             y += ROW;
-            svg.text((MARGIN, y), Anchor::Start, "axis", &line);
+            svg.text((MARGIN, y), Anchor::Start, "axis", &self.note);
         }
         y + 6.0
     }
