@@ -1,10 +1,8 @@
-//! Time to build, in objects per second: for any rays, or for one raster where a structure serves
-//! nothing else.
+//! Time to build for rays of any kind, in objects per second.
 
-use accel::{Need, RaySet};
-use benches::{PAPER_SCENES, SCENES, all_structures, on_one_thread, rays, scene, structures};
+use accel::Need;
+use benches::{PAPER_SCENES, SCENES, all_structures, on_one_thread, scene, structures};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use scenes::rays::RaysId;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -13,7 +11,6 @@ fn build(c: &mut Criterion) {
     let small = PAPER_SCENES.map(|id| (id, all_structures()));
     for (id, structures) in large.into_iter().chain(small) {
         let scene = scene(id);
-        let RaySet::Raster(raster) = rays(&scene, RaysId::Parallel, 128) else { unreachable!("an image") };
         let mut group = c.benchmark_group(format!("build/{id}"));
         group.throughput(Throughput::Elements(scene.geometry.len() as u64));
         group
@@ -21,11 +18,12 @@ fn build(c: &mut Criterion) {
             .warm_up_time(Duration::from_millis(300))
             .measurement_time(Duration::from_secs(1));
         for choice in structures {
-            let need = if choice.entry.traits.lists { Need::GENERAL } else { Need::raster(raster) };
-            if choice.builder.build(&scene, &need).is_ok() {
+            if choice.builder.build(&scene, &Need::GENERAL).is_ok() {
                 group.bench_function(choice.spec.to_string(), |b| {
                     on_one_thread(|| {
-                        b.iter_with_large_drop(|| black_box(choice.builder.build(&scene, &need).ok()))
+                        b.iter_with_large_drop(|| {
+                            black_box(choice.builder.build(&scene, &Need::GENERAL).ok())
+                        })
                     });
                 });
             }

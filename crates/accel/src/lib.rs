@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod aabb;
+mod any_rays;
 mod camera;
 pub mod dda;
 mod footprint;
@@ -21,9 +22,12 @@ mod rayset;
 mod scene;
 pub mod settings;
 mod structure;
+#[cfg(feature = "testing")]
+pub mod testing;
 pub mod tolerance;
 
 pub use aabb::Aabb;
+pub use any_rays::AnyRays;
 pub use footprint::{Footprint, Group, Part, vec_bytes};
 pub use glam::Vec3;
 pub use input::{InputError, Position};

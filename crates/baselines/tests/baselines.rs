@@ -1,27 +1,9 @@
 //! The reference methods against the reference.
 
-use accel::{Builder, Geometry, Mesh, Need, Ray, RaySet, Scene, Vec3, View};
+use accel::testing::cloud;
+use accel::{Builder, Need};
 use baselines::{Brute, MinMax, Sphere};
 use primitives::KernelId;
-
-/// A deterministic cloud of triangles and rays that start in, on and outside of it.
-fn cloud(triangles: u32, rays: u32) -> (Scene, RaySet) {
-    let mut state = 7u32;
-    let mut random = move || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as f32 / (1 << 24) as f32 * 2.0 - 1.0
-    };
-    let mut point = |scale: f32| Vec3::new(random(), random(), random()) * scale;
-    let mut mesh = Mesh::default();
-    for i in 0..triangles {
-        let center = point(1.0);
-        mesh.positions.extend([center, center + point(0.3), center + point(0.3)]);
-        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
-    }
-    let rays = (0..rays).map(|i| Ray::new(point(if i % 3 == 0 { 3.0 } else { 1.0 }), point(1.0))).collect();
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
-    (Scene { id: "cloud".into(), geometry: Geometry::Triangles(mesh), view }, RaySet::List(rays))
-}
 
 #[test]
 fn bounding_volumes_lose_nothing() {

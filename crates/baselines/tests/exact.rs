@@ -1,4 +1,5 @@
 //! Brute force with the exact kernel against the oracle.
+#![cfg(feature = "exact")]
 
 use accel::{Builder, Corners, Geometry, Mesh, Need, Ray, RaySet, Scene, Vec3, View};
 use baselines::Brute;

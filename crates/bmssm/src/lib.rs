@@ -13,8 +13,8 @@
 //! # Ok::<(), bmssm::BuildError>(())
 //! ```
 //!
-//! - [`Bmssm`] traces any rays: the nearest hit ([`Bmssm::closest`]) or whether there is one
-//!   ([`Bmssm::occluded`]), one by one or many at once ([`Bmssm::trace`]).
+//! - [`Bmssm`] traces any rays: the nearest hit ([`AnyRays::closest`]) or whether there is one
+//!   ([`AnyRays::occluded`]), one by one or many at once ([`AnyRays::trace`]).
 //! - [`Image`] serves the pixels of one [`Camera`] and nothing else: it is built sooner, takes less memory and
 //!   traces faster than the other.
 //! - [`Objects`] is what objects of other kinds than triangles tell: their boxes, and where a ray meets one.
@@ -25,6 +25,8 @@
 //!
 //! # Features
 //! - `parallel` (default): building and tracing use all threads of the current rayon pool.
+//! - `exact` (default): the ray-triangle intersector `Kernel::Exact`, whose every decision is the true one. Without it
+//!   the crate compiles sooner.
 //!
 //! # Pixels
 //! ```
@@ -78,7 +80,7 @@ mod image_space;
 mod raster;
 
 pub use accel::{
-    Aabb, BuildError, Footprint, Hit, InputError, Objects, Position, Ray, RayError, Surface, Vec3,
+    Aabb, AnyRays, BuildError, Footprint, Hit, InputError, Objects, Position, Ray, RayError, Surface, Vec3,
 };
 pub use face::{Bmssm, Camera, CameraError, Image, Options};
 pub use lanes::Level as Simd;

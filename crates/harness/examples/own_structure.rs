@@ -6,6 +6,7 @@
 use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Need, Objects, Ray, Scene};
 use harness::registry::{Choice, Entry, KERNEL, Traits};
 use harness::sweeps::differences::{self, Sweep};
+use harness::workload::Subject;
 use lanes::PackedObjects;
 use primitives::{KernelId, WithObjects, with_objects};
 use scenes::rays::RaysId;
@@ -74,7 +75,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         [Choice::of(&ENTRY, &"sorted".parse()?)?, Choice::of(&ENTRY, &"sorted:kernel=exact".parse()?)?];
     let scenes = ["small-1k", "boxes-100-40", "unit-equal", "unit-flat"].map(str::to_owned).to_vec();
     let rays = RaysId::ALL.to_vec();
-    let sweep = Sweep { scenes, rays, size: 16, seed: 1, rays_each: 0, tests: 1 << 22 };
+    let sweep = Sweep { subject: Subject { scenes, rays, size: 16, seed: 1 }, rays_each: 0, tests: 1 << 22 };
     let tally = differences::run(&sweep, &choices, ())?;
     for row in &tally.structures {
         println!("{}: {} rays, {} differ from brute force", row.structure, row.rays, row.differences);

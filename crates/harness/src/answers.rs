@@ -26,7 +26,7 @@ impl Answers {
     }
 
     /// Makes all answers wrong: hits that don't exist, and the contrary of every truth value.
-    pub fn spoil(&mut self) {
+    pub fn poison(&mut self) {
         match self {
             Self::Closest(hits) => hits.fill(Some(UNWRITTEN)),
             Self::Occluded(any) => any.iter_mut().for_each(|any| *any = !*any),
@@ -137,9 +137,9 @@ mod tests {
     #[test]
     fn what_is_not_written_is_noticed() {
         for answers in [Answers::Closest(vec![None, hit(1.0, 2)]), Answers::Occluded(vec![true, false])] {
-            let mut spoilt = answers.clone();
-            spoilt.spoil();
-            assert!((0..2).all(|i| !spoilt.same(i, &answers, i)));
+            let mut poisoned = answers.clone();
+            poisoned.poison();
+            assert!((0..2).all(|i| !poisoned.same(i, &answers, i)));
         }
     }
 }

@@ -51,12 +51,12 @@ pub struct Ranking {
     pub measure: Measure,
     /// The structure that all ratios are to.
     pub to: String,
+    /// The structures without a figure in some cells.
+    pub lacking: Vec<String>,
     /// Number of cells (scene × ray set × threads) in which all structures have a figure.
     pub shared: usize,
     /// Cells left out because some structure has none.
     pub left_out: usize,
-    /// The structures without a figure in some of these.
-    pub lacking: Vec<String>,
     /// From the least ratio on.
     pub places: Vec<Place>,
 }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 /// What a user asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Wish {
+pub struct Constraints {
     /// Bytes that structure and geometry copy may take together.
     pub memory: Option<u64>,
     /// What errors are put up with.
@@ -19,7 +19,7 @@ pub struct Wish {
     pub rays_per_build: Option<f64>,
 }
 
-impl Default for Wish {
+impl Default for Constraints {
     /// Anything goes.
     fn default() -> Self {
         Self { memory: None, limits: Limits::NONE, rays_per_build: None }
@@ -94,7 +94,7 @@ pub struct Candidate {
     pub bytes: u64,
     /// Wrong answers, the most over ray sets; none where it was not decided.
     pub error: Option<ErrorRate>,
-    /// How the candidate fails the wish, in words; empty if it fits.
+    /// How the candidate fails the constraints, in words; empty if it fits.
     pub misfits: Vec<String>,
     /// By which factor it exceeds what it exceeds most; 1 if it fits.
     pub excess: f64,
@@ -112,14 +112,14 @@ pub struct Recommendation {
 }
 
 /// Ranks the structures of a record of one scene.
-pub fn rank(record: &Record, errors: &ErrorRates, wish: &Wish) -> Recommendation {
+pub fn rank(record: &Record, errors: &ErrorRates, constraints: &Constraints) -> Recommendation {
     let mut all = Recommendation::default();
     let sets = record.ray_sets();
     let scene = record.cells.first().map_or("", |cell| &cell.scene);
     for structure in record.structure_ids() {
         let cells: Vec<&Cell> = record.cells.iter().filter(|c| c.structure == structure).collect();
         let outcome = |set: &str| record.outcome(scene, set, structure);
-        match candidate(structure, &cells, &sets, outcome, errors, wish) {
+        match candidate(structure, &cells, &sets, outcome, errors, constraints) {
             Ok(candidate) if candidate.misfits.is_empty() => all.fitting.push(candidate),
             Ok(candidate) => all.others.push(candidate),
             Err(reason) => all.unfit.push((structure.to_owned(), reason)),
@@ -136,7 +136,7 @@ fn candidate(
     sets: &[&str],
     outcome: impl Fn(&str) -> Outcome,
     errors: &ErrorRates,
-    wish: &Wish,
+    constraints: &Constraints,
 ) -> Result<Candidate, String> {
     for set in sets {
         if let Some(reason) = outcome(set).reason() {
@@ -145,7 +145,7 @@ fn candidate(
     }
     let figures: Option<Vec<(f64, f64)>> = cells.iter().map(|cell| Some((cell.ns()?, build(cell)))).collect();
     let figures = figures.ok_or("has no sample")?;
-    let share = |build: f64| wish.rays_per_build.map_or(0.0, |rays| build / rays.max(1.0));
+    let share = |build: f64| constraints.rays_per_build.map_or(0.0, |rays| build / rays.max(1.0));
     let mean = |values: Vec<f64>| geometric_mean(&values).ok_or("has no sample");
     let bytes = |cell: &&Cell| cell.bytes.as_ref().map_or(0, |b| b.structure + b.geometry_copy);
     let wrong: Option<Vec<ErrorRate>> = cells.iter().map(|cell| error_rate(cell, errors)).collect();
@@ -155,21 +155,22 @@ fn candidate(
         ns: mean(figures.iter().map(|(ns, _)| *ns).collect())?,
         build_ns: figures.iter().map(|(_, build)| *build).fold(0.0, f64::max),
         bytes: cells.iter().map(bytes).max().unwrap_or(0),
-        error: wrong.map(|rates| rates.into_iter().fold(ErrorRate::Proven, |a, b| a.worse(b, &wish.limits))),
+        error: wrong
+            .map(|rates| rates.into_iter().fold(ErrorRate::Proven, |a, b| a.worse(b, &constraints.limits))),
         misfits: Vec::new(),
         excess: 1.0,
     };
-    if let Some(limit) = wish.memory.filter(|limit| candidate.bytes > *limit) {
+    if let Some(limit) = constraints.memory.filter(|limit| candidate.bytes > *limit) {
         let excess = candidate.bytes as f64 / limit.max(1) as f64;
         candidate.misfits.push(format!("takes {}", units::bytes(candidate.bytes)));
         candidate.excess = candidate.excess.max(excess);
     }
-    if wish.limits.any() {
+    if constraints.limits.any() {
         match candidate.error {
-            Some(error) if error.excess(&wish.limits) <= 1.0 => {}
+            Some(error) if error.excess(&constraints.limits) <= 1.0 => {}
             Some(error) => {
-                candidate.misfits.push(complaint(&error, &wish.limits));
-                candidate.excess = candidate.excess.max(error.excess(&wish.limits));
+                candidate.misfits.push(complaint(&error, &constraints.limits));
+                candidate.excess = candidate.excess.max(error.excess(&constraints.limits));
             }
             None => {
                 candidate.misfits.push("its errors are not known".to_owned());
@@ -257,16 +258,16 @@ mod tests {
     #[test]
     fn the_fastest_is_first_and_building_counts_by_rays() {
         let mut record = record();
-        let all = rank(&record, &BTreeMap::new(), &Wish::default());
+        let all = rank(&record, &BTreeMap::new(), &Constraints::default());
         assert_eq!(names(&all.fitting), ["c", "a", "b"]);
         assert!((all.fitting[0].ns - (20.0f64 * 40.0).sqrt()).abs() < 0.5);
         for cell in record.cells.iter_mut().filter(|cell| cell.structure == "c") {
             cell.build_ns = vec![1_000_000_000];
         }
-        let wish = Wish { rays_per_build: Some(1e6), ..Wish::default() };
-        assert_eq!(names(&rank(&record, &BTreeMap::new(), &wish).fitting), ["a", "b", "c"]);
-        let wish = Wish { rays_per_build: Some(1e9), ..Wish::default() };
-        assert_eq!(names(&rank(&record, &BTreeMap::new(), &wish).fitting), ["c", "a", "b"]);
+        let constraints = Constraints { rays_per_build: Some(1e6), ..Constraints::default() };
+        assert_eq!(names(&rank(&record, &BTreeMap::new(), &constraints).fitting), ["a", "b", "c"]);
+        let constraints = Constraints { rays_per_build: Some(1e9), ..Constraints::default() };
+        assert_eq!(names(&rank(&record, &BTreeMap::new(), &constraints).fitting), ["c", "a", "b"]);
     }
 
     #[test]
@@ -280,8 +281,9 @@ mod tests {
                 _ => 10_000_000,
             };
         }
-        let with =
-            |memory| rank(&record, &BTreeMap::new(), &Wish { memory: Some(memory), ..Wish::default() });
+        let with = |memory| {
+            rank(&record, &BTreeMap::new(), &Constraints { memory: Some(memory), ..Constraints::default() })
+        };
         assert_eq!(names(&with(2_000_000).fitting), ["a", "b"]);
         let none = with(50_000);
         assert!(none.fitting.is_empty());
@@ -302,8 +304,8 @@ mod tests {
             |holes| ErrorRate::Seen(Examined::all(Counts { rays: 100_000, holes, ..Counts::default() }, 0.0));
         let errors: ErrorRates = [(key("parallel"), rate(0)), (key("random"), rate(10))].into();
         let limits = Limits { errors: Some(1e3), ..Limits::NONE };
-        let wish = Wish { limits, ..Wish::default() };
-        let all = rank(&record, &errors, &wish);
+        let constraints = Constraints { limits, ..Constraints::default() };
+        let all = rank(&record, &errors, &constraints);
         assert_eq!(names(&all.fitting), ["a", "b"]);
         assert_eq!(all.fitting[0].error.unwrap().share(Counted::Visible), 1e-4);
         assert_eq!(all.others[0].error.unwrap().share(Counted::Visible), 2e-3);
@@ -312,13 +314,13 @@ mod tests {
             ["parallel", "random"]
                 .map(|rays| ((Answerer::Structure("c".to_owned()), rays.to_owned()), rate(1))),
         );
-        let all = rank(&record, &examined, &wish);
+        let all = rank(&record, &examined, &constraints);
         assert_eq!(
             names(&all.fitting),
             ["c", "a", "b"],
             "examined itself, whatever its cells were checked for"
         );
-        let unknown = rank(&record, &BTreeMap::new(), &wish);
+        let unknown = rank(&record, &BTreeMap::new(), &constraints);
         assert!(unknown.fitting.is_empty(), "what is not known does not fit");
     }
 
@@ -337,12 +339,12 @@ mod tests {
         let rate = ErrorRate::Seen(Examined::all(swapped, 0.0));
         let key = |rays: &str| (Answerer::Kernel(KernelId::MollerTrumbore), rays.to_owned());
         let errors: ErrorRates = [(key("parallel"), rate), (key("random"), rate)].into();
-        let wish = |counted| Wish {
+        let constraints = |counted| Constraints {
             limits: Limits { errors: Some(1.0), counted, ..Limits::NONE },
-            ..Wish::default()
+            ..Constraints::default()
         };
-        assert_eq!(rank(&record, &errors, &wish(Counted::Visible)).fitting.len(), 3);
-        let identity = rank(&record, &errors, &wish(Counted::Identity));
+        assert_eq!(rank(&record, &errors, &constraints(Counted::Visible)).fitting.len(), 3);
+        let identity = rank(&record, &errors, &constraints(Counted::Identity));
         assert!(identity.fitting.is_empty() && identity.others[0].misfits[0].contains("another object"));
     }
 
@@ -351,7 +353,7 @@ mod tests {
         let mut record = record();
         record.cells[0].outcome = Outcome::Failed("it fell over".into());
         record.cells.retain(|cell| cell.structure != "b" || cell.rays != "random");
-        let all = rank(&record, &BTreeMap::new(), &Wish::default());
+        let all = rank(&record, &BTreeMap::new(), &Constraints::default());
         assert_eq!(names(&all.fitting), ["c"]);
         assert_eq!(
             all.unfit,

@@ -2,17 +2,9 @@
 
 use crate::machine::Machine;
 use crate::record::*;
+pub use accel::testing::random;
 use accel::{Geometry, Mesh, Projection, Raster, Ray, RaySet, Scene, Vec3, View};
 use primitives::KernelId;
-
-/// Numbers in [-1, 1) that are the same in every run.
-pub fn random(seed: u32) -> impl FnMut() -> f32 {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as f32 / (1 << 23) as f32 - 1.0
-    }
-}
 
 fn scene(id: &str, mesh: Mesh) -> Scene {
     let view = View { eye: Vec3::Z * 4.0, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
@@ -21,16 +13,9 @@ fn scene(id: &str, mesh: Mesh) -> Scene {
 
 /// A cloud of triangles and rays that start in and around it.
 pub fn cloud(triangles: u32, rays: u32) -> (Scene, RaySet) {
-    let mut random = random(7);
-    let mut point = |scale: f32| Vec3::new(random(), random(), random()) * scale;
-    let mut mesh = Mesh::default();
-    for i in 0..triangles {
-        let center = point(1.0);
-        mesh.positions.extend([center, center + point(0.3), center + point(0.3)]);
-        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
-    }
-    let rays = (0..rays).map(|i| Ray::new(point(if i % 3 == 0 { 3.0 } else { 1.0 }), point(1.0))).collect();
-    (scene("cloud", mesh), RaySet::List(rays))
+    let (cloud, rays) = accel::testing::cloud(triangles, rays);
+    let view = View { eye: Vec3::Z * 4.0, ..cloud.view };
+    (Scene { id: "cloud".into(), view, ..cloud }, rays)
 }
 
 /// An octahedron around the origin, and rays from its inside.

@@ -10,6 +10,7 @@ use accel::{
 use bmssm::suite::general::{General, Settings};
 use harness::registry::{Choice, ChosenKernel, Entry};
 use harness::sweeps::{differences, leaks, oracle};
+use harness::workload::Subject;
 use lanes::packet::{Lanes, Packet};
 use lanes::{Level, PackedObjects, Simd};
 use primitives::kernel::{Floats, Immediate, Packed, Unprepared, Watertight};
@@ -231,14 +232,9 @@ fn choice(planted: Planted) -> Choice {
 
 /// Differences from brute force, by the differential sweep.
 fn differences(planted: Planted) -> u64 {
-    let plan = differences::Sweep {
-        scenes: vec!["bumps-2k".into()],
-        rays: RaysId::ALL.into_iter().filter(|id| !id.is_image()).collect(),
-        size: 24,
-        seed: 1,
-        rays_each: 0,
-        tests: u64::MAX,
-    };
+    let rays = RaysId::ALL.into_iter().filter(|id| !id.is_image()).collect();
+    let subject = Subject { scenes: vec!["bumps-2k".into()], rays, size: 24, seed: 1 };
+    let plan = differences::Sweep { subject, rays_each: 0, tests: u64::MAX };
     let tally = differences::run(&plan, &[choice(planted)], ()).unwrap();
     let row = &tally.structures[0];
     assert!(row.rays > 1000, "{row:?}");
@@ -253,7 +249,8 @@ fn missed(planted: Planted) -> u64 {
 }
 
 fn missed_of(planted: Planted, scene: &str, rays: Vec<RaysId>, size: u32) -> u64 {
-    let plan = oracle::OraclePlan { scenes: vec![scene.into()], rays, size, seed: 1, least: 0 };
+    let plan =
+        oracle::OraclePlan { subject: Subject { scenes: vec![scene.into()], rays, size, seed: 1 }, least: 0 };
     let tally = oracle::run(&plan, &[choice(planted)], ()).unwrap();
     assert!(tally.rays > 5000, "{tally:?}");
     tally.structures[0].missed
@@ -267,22 +264,23 @@ fn leaked(planted: Planted, rays: u64) -> u64 {
     sum
 }
 
-#[test]
-fn a_kernel_without_its_edges_is_found() {
-    let [sound, faulty] = [false, true].map(|open_edges| Planted::Kernel { open_edges });
-    assert_eq!((differences(sound), leaked(sound, 300)), (0, 0));
+/// All three checks find a fault, and two nothing without it.
+fn found_by_all(plant: impl Fn(bool) -> Planted, rays: u64) {
+    let [sound, faulty] = [false, true].map(plant);
+    assert_eq!((differences(sound), leaked(sound, rays)), (0, 0));
     assert!(differences(faulty) > 0, "by the sweep");
     assert!(missed(faulty) > missed(sound), "by the oracle");
-    assert!(leaked(faulty, 300) > 0, "by the leak check");
+    assert!(leaked(faulty, rays) > 0, "by the leak check");
+}
+
+#[test]
+fn a_kernel_without_its_edges_is_found() {
+    found_by_all(|open_edges| Planted::Kernel { open_edges }, 300);
 }
 
 #[test]
 fn maps_rounded_the_wrong_way_are_found() {
-    let [sound, faulty] = [false, true].map(|inwards| Planted::Maps { inwards });
-    assert_eq!((differences(sound), leaked(sound, 2000)), (0, 0));
-    assert!(differences(faulty) > 0, "by the sweep");
-    assert!(missed(faulty) > missed(sound), "by the oracle");
-    assert!(leaked(faulty, 2000) > 0, "by the leak check");
+    found_by_all(|inwards| Planted::Maps { inwards }, 2000);
 }
 
 /// Rays of which some hit an object in a cell that they meet near a corner only.

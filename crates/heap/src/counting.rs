@@ -27,27 +27,26 @@ fn advise(place: *mut u8, size: usize) {
     let _ = (place, size);
 }
 
+/// Counts what was allocated, if it was.
+fn counted(place: *mut u8, bytes: usize) -> *mut u8 {
+    if !place.is_null() {
+        grown(bytes);
+        advise(place, bytes);
+    }
+    place
+}
+
 // SAFETY: every call is passed on unchanged to the system's allocator, whose answers are
 // returned unchanged; counting and advising neither allocate nor panic.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller's promises are those that `System` asks for.
-        let place = unsafe { System.alloc(layout) };
-        if !place.is_null() {
-            grown(layout.size());
-            advise(place, layout.size());
-        }
-        place
+        counted(unsafe { System.alloc(layout) }, layout.size())
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         // SAFETY: as in `alloc`.
-        let place = unsafe { System.alloc_zeroed(layout) };
-        if !place.is_null() {
-            grown(layout.size());
-            advise(place, layout.size());
-        }
-        place
+        counted(unsafe { System.alloc_zeroed(layout) }, layout.size())
     }
 
     unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {

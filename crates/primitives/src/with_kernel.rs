@@ -1,6 +1,8 @@
 //! A kernel as a type.
 
-use crate::kernel::{BaldwinWeber, BoundingBox, Double, Exact, MollerTrumbore, Quantised, Watertight};
+#[cfg(feature = "exact")]
+use crate::kernel::Exact;
+use crate::kernel::{BaldwinWeber, BoundingBox, Double, MollerTrumbore, Quantised, Watertight};
 use crate::{KernelId, TriangleKernel};
 
 /// Code that is generic over the kernel.
@@ -20,6 +22,7 @@ impl KernelId {
             Self::BaldwinWeber => with.kernel::<BaldwinWeber>(),
             Self::Watertight => with.kernel::<Watertight>(),
             Self::Double => with.kernel::<Double>(),
+            #[cfg(feature = "exact")]
             Self::Exact => with.kernel::<Exact>(),
             Self::Quantised => with.kernel::<Quantised>(),
             Self::BoundingBox => with.kernel::<BoundingBox>(),

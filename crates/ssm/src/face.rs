@@ -2,17 +2,16 @@
 
 use crate::compact::Ssm as Builder;
 use crate::resolution::Resolution;
-use accel::input::traceable;
-use accel::{Accel, BuildError, Footprint, Hit, MeshRef, Objects, Position, Ray, RaySet};
+use accel::{AnyRays, BuildError, MeshRef, Objects, Position};
 use lanes::Level;
 use primitives::{Guarded, KernelId, WithObjects, with_triangles};
-use std::fmt;
+use std::ops::Deref;
 
-/// A scene that any ray can be traced through: a compact uniform grid.
+/// A scene that any ray can be traced through, by the functions of [`AnyRays`]: a compact uniform grid.
 ///
-/// The mesh stays in the caller's buffers, which are borrowed. Of several hits at the same t the lowest object number wins. A ray
-/// that is none, because it isn't finite or has no direction ([`Ray::validate`]), hits nothing.
-pub struct Ssm<'s>(Box<dyn Accel + 's>);
+/// The mesh stays in the caller's buffers, which are borrowed.
+#[derive(Debug)]
+pub struct Ssm<'s>(AnyRays<'s>);
 
 impl<'s> Ssm<'s> {
     /// Builds for a mesh: positions as `[f32; 3]` or [`Vec3`](crate::Vec3), and three indices into them for each
@@ -38,41 +37,13 @@ impl<'s> Ssm<'s> {
     pub fn options() -> Options {
         Options::default()
     }
-
-    /// The nearest hit.
-    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
-        ray.validate().is_ok().then(|| self.0.closest(ray)).flatten()
-    }
-
-    /// Whether anything is hit.
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        ray.validate().is_ok() && self.0.occluded(ray)
-    }
-
-    /// The nearest hit of each ray. Faster than ray by ray; with the feature `parallel` on all threads of the
-    /// current rayon pool.
-    pub fn trace(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
-        let mut hits = vec![None; rays.len()];
-        self.0.trace(&RaySet::List(traceable(rays).into_owned()), &mut hits);
-        hits
-    }
-
-    /// Whether each ray hits anything, see [`Ssm::trace`].
-    pub fn trace_occluded(&self, rays: &[Ray]) -> Vec<bool> {
-        let mut occluded = vec![false; rays.len()];
-        self.0.trace_occluded(&RaySet::List(traceable(rays).into_owned()), &mut occluded);
-        occluded
-    }
-
-    /// What the grid holds in memory, part by part, beside the caller's own buffers.
-    pub fn footprint(&self) -> Footprint {
-        self.0.footprint()
-    }
 }
 
-impl fmt::Debug for Ssm<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Ssm").field("footprint", &self.footprint()).finish()
+impl<'s> Deref for Ssm<'s> {
+    type Target = AnyRays<'s>;
+
+    fn deref(&self) -> &AnyRays<'s> {
+        &self.0
     }
 }
 
@@ -120,7 +91,7 @@ impl Options {
     ) -> Result<Ssm<'s>, BuildError> {
         self.check()?;
         let mesh = MeshRef::new(positions, triangles)?;
-        with_triangles(mesh, self.builder.settings.kernel, self.builder).map(Ssm)
+        with_triangles(mesh, self.builder.settings.kernel, self.builder).map(AnyRays::new).map(Ssm)
     }
 
     /// See [`Ssm::build_objects`].
@@ -129,7 +100,7 @@ impl Options {
     /// Those of [`Ssm::build_objects`], and [`BuildError::Setting`] for a density that is not above 0 and finite.
     pub fn build_objects<'s, O: Objects>(&self, objects: &'s O) -> Result<Ssm<'s>, BuildError> {
         self.check()?;
-        self.builder.objects(Guarded::new(objects)?).map(Ssm)
+        self.builder.objects(Guarded::new(objects)?).map(AnyRays::new).map(Ssm)
     }
 
     fn check(&self) -> Result<(), BuildError> {

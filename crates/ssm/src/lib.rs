@@ -21,6 +21,8 @@
 //!
 //! # Features
 //! - `parallel` (default): building and tracing use all threads of the current rayon pool.
+//! - `exact` (default): the ray-triangle intersector `Kernel::Exact`, whose every decision is the true one. Without it
+//!   the crate compiles sooner.
 #![forbid(unsafe_code)]
 
 mod compact;
@@ -31,7 +33,7 @@ mod resolution;
 mod settings;
 
 pub use accel::{
-    Aabb, BuildError, Footprint, Hit, InputError, Objects, Position, Ray, RayError, Surface, Vec3,
+    Aabb, AnyRays, BuildError, Footprint, Hit, InputError, Objects, Position, Ray, RayError, Surface, Vec3,
 };
 pub use face::{Options, Ssm};
 pub use lanes::Level as Simd;

@@ -5,7 +5,7 @@ use crate::{FORMAT, Row, Trade, curve, extremes, leaving, mark_front};
 use accel::{Geometry, Need, Scene};
 use harness::guard::guard;
 use harness::machine::Machine;
-use harness::measure::{Failure, Job, Options, Watch, measure};
+use harness::measure::{Deadline, Failure, Job, Options, measure};
 use harness::progress::{Event, Listener};
 use harness::record::{Cell, SceneEntry, Skipped, Suite};
 use harness::registry::{self, Choice, StructureSpec, guarded_build};
@@ -76,7 +76,7 @@ pub fn defaults() -> Vec<StructureSpec> {
             all.push(spec.with_default("kernel", kernel));
         }
     }
-    all.extend(registry::with_variants(|entry| !entry.traits.built_in && entry.traits.lists));
+    all.extend(registry::with_variants(|entry| !entry.traits.built_in));
     all
 }
 
@@ -224,9 +224,15 @@ impl<L: Listener> Work<'_, L> {
         let hunting = self.decide(&HUNTING, plan.hunting, skipped);
         let timed = self.make(&plan.timed, plan.size, skipped);
         let choices = &*harness::auto::resolve(choices, scene, &batches(&timed));
-        let watch = Watch::default();
-        let job =
-            Job { scene, workloads: &timed, choices, options: &plan.options, known: &[], watch: &watch };
+        let deadline = Deadline::default();
+        let job = Job {
+            scene,
+            workloads: &timed,
+            choices,
+            options: &plan.options,
+            known: &[],
+            deadline: &deadline,
+        };
         let mut cells: Vec<Cell> = Vec::new();
         let listener = &mut *self.listener;
         measure(&job, |workload, pass, more| {
@@ -291,7 +297,7 @@ fn judged(
         let mut sum = Tally::default();
         let mut all = Vec::new();
         for set in sets {
-            let fewer = choice.entry.traits.thins(&set.rays).then(|| set.fewer(few));
+            let fewer = choice.entry.traits.subsamples(&set.rays).then(|| set.fewer(few));
             let tally = guard("tracing", || fewer.as_ref().unwrap_or(set).judge(judge, accel.as_ref()))?;
             all.push(Judged::of(&set.name, tally.clone()));
             sum.extend(tally);

@@ -22,7 +22,7 @@ pub trait Detail: Send + Sync {
 
     /// Decides what tests left open.
     #[inline(always)]
-    fn settle(&self, ray: &Self::Ray, best: &mut Nearest) {
+    fn resolve(&self, ray: &Self::Ray, best: &mut Nearest) {
         let _ = (ray, best);
     }
 
@@ -107,7 +107,7 @@ impl<B: Blocks> Detail for Words<B> {
     }
 
     #[inline(always)]
-    fn settle(&self, ray: &B::One, best: &mut Nearest) {
+    fn resolve(&self, ray: &B::One, best: &mut Nearest) {
         self.0.resolve(ray, best);
     }
 

@@ -13,13 +13,13 @@ const CHUNK: usize = 1024;
 /// The maps a need asked for, and the detail tests.
 pub struct Built<D> {
     pub detail: D,
+    pub image: Option<ImageMaps>,
+    pub space: Option<SpaceMaps>,
     pub objects: usize,
     pub simd: Level,
     pub mailbox: bool,
     /// Whether rays of any kind are served, which takes no maps where there is no object.
     pub general: bool,
-    pub image: Option<ImageMaps>,
-    pub space: Option<SpaceMaps>,
     pub plan: String,
 }
 
@@ -111,7 +111,7 @@ impl<D: Detail> Built<D> {
                 break;
             }
         }
-        self.detail.settle(&state.ray, &mut state.best);
+        self.detail.resolve(&state.ray, &mut state.best);
         A::new(&state.best, state.count)
     }
 
@@ -149,7 +149,7 @@ impl<D: Detail> Built<D> {
                 }
             }
         }
-        self.detail.settle(&state.ray, &mut state.best);
+        self.detail.resolve(&state.ray, &mut state.best);
         A::new(&state.best, state.count)
     }
 

@@ -1,23 +1,10 @@
 use super::*;
-use accel::{Geometry, Group, Mesh, Projection, Raster, Ray, RaySet, Vec3, View};
+use accel::{Geometry, Group, Projection, Raster, Ray, RaySet, Vec3, testing};
 use baselines::Brute;
 use primitives::KernelId;
 
 fn scene() -> Scene {
-    let mut state = 11u32;
-    let mut number = move || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as f32 / (1 << 24) as f32 * 2.0 - 1.0
-    };
-    let mut point = |size: f32| Vec3::new(number(), number(), number()) * size;
-    let mut mesh = Mesh::default();
-    for i in 0..3000 {
-        let corner = point(1.0);
-        mesh.positions.extend([corner, corner + point(0.1), corner + point(0.1)]);
-        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
-    }
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
-    Scene { id: "cloud".into(), geometry: Geometry::Triangles(mesh), view }
+    testing::scene(Geometry::Triangles(testing::soup(11, 3000, 0.1)))
 }
 
 fn image() -> Raster {

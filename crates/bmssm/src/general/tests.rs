@@ -1,21 +1,15 @@
 use super::*;
-use accel::{Aabb, Builder, Geometry, Mesh, Need, RaySet, Scene, Vec3, View};
+use accel::testing::{Numbers, scene};
+use accel::{Aabb, Builder, Geometry, Mesh, Need, RaySet, Vec3};
 use baselines::Brute;
 use lanes::{BLOCK, EMPTY_SLOT, PackedObjects};
 use primitives::{KernelId, WithObjects};
 use proptest::prelude::*;
 
-fn scene(geometry: Geometry) -> Scene {
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
-    Scene { id: "test".into(), geometry, view }
-}
-
-/// A deterministic source of numbers from −1 to 1.
-fn numbers(mut state: u64) -> impl FnMut() -> f32 {
-    move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f32 / (1 << 23) as f32 - 1.0
-    }
+/// Numbers from −1 to 1.
+fn numbers(seed: u64) -> impl FnMut() -> f32 {
+    let mut numbers = Numbers(seed);
+    move || numbers.signed()
 }
 
 /// Triangles of mixed size, a few of them huge, thin or without area.

@@ -1,26 +1,13 @@
 use super::*;
 use crate::fast;
-use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Projection, RaySet, Scene, Vec3, View};
+use accel::testing::{Numbers, scene};
+use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Projection, RaySet, Scene, Vec3};
 use baselines::Brute;
 use lanes::{PackedObjects, Simd, Task};
 use primitives::WithObjects;
 
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1 << 24) as f32
-    }
-
-    fn point(&mut self, range: f32) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit()) * (2.0 * range) - range
-    }
-}
-
-fn scene(geometry: Geometry) -> Scene {
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
-    Scene { id: "test".into(), geometry, view }
+fn point(random: &mut Numbers, range: f32) -> Vec3 {
+    random.vec3() * (2.0 * range) - range
 }
 
 fn mesh(corners: impl IntoIterator<Item = [Vec3; 3]>) -> Scene {
@@ -31,21 +18,21 @@ fn mesh(corners: impl IntoIterator<Item = [Vec3; 3]>) -> Scene {
 
 /// `count` triangles with edges of about `size` in the cube of half-width 1, then scaled and moved.
 fn soup(count: usize, size: f32, scale: f32, offset: Vec3) -> Scene {
-    let mut random = Random(count as u64);
+    let mut random = Numbers(count as u64);
     mesh((0..count).map(|_| {
-        let middle = random.point(1.0);
-        [0; 3].map(|_| (middle + random.point(size)) * scale + offset)
+        let middle = point(&mut random, 1.0);
+        [0; 3].map(|_| (middle + point(&mut random, size)) * scale + offset)
     }))
 }
 
 /// Few large, many small, doubles and needles, degenerate ones.
 fn mixed() -> Scene {
-    let mut random = Random(5);
+    let mut random = Numbers(5);
     let mut corners: Vec<[Vec3; 3]> = (0..600)
         .map(|i| {
             let size = [0.02, 0.3, 2.0][usize::from(i % 8 == 0) + usize::from(i % 40 == 0)];
-            let middle = random.point(1.0);
-            [0; 3].map(|_| middle + random.point(size))
+            let middle = point(&mut random, 1.0);
+            [0; 3].map(|_| middle + point(&mut random, size))
         })
         .collect();
     for i in 0..60 {
@@ -145,11 +132,11 @@ fn any_size_of_image_and_tile() {
 #[test]
 fn eyes_inside_and_images_beside_the_scene() {
     let scenes = [mixed(), soup(500, 0.3, 1.0, Vec3::ZERO)];
-    let mut random = Random(3);
+    let mut random = Numbers(3);
     for scene in &scenes {
         for projection in BOTH {
             for _ in 0..6 {
-                let (eye, target) = (random.point(0.9), random.point(1.0));
+                let (eye, target) = (point(&mut random, 0.9), point(&mut random, 1.0));
                 let raster = look(projection, [40, 44], eye, target, random.unit() * 2.0 + 0.01);
                 check(scene, &raster, Settings::default());
             }
@@ -189,10 +176,10 @@ fn degenerate_rasters_lose_nothing() {
 
 #[test]
 fn boxes_and_empty_scenes() {
-    let mut random = Random(11);
+    let mut random = Numbers(11);
     let boxes: Vec<Aabb> = (0..300)
         .map(|_| {
-            let (a, b) = (random.point(1.0), random.point(0.1));
+            let (a, b) = (point(&mut random, 1.0), point(&mut random, 0.1));
             Aabb::of_points([a, a + b])
         })
         .collect();

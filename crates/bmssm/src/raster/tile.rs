@@ -88,7 +88,7 @@ impl<O: PackedObjects, C: Count> Task for Band<'_, O, C> {
             tile.open.fill(false);
             tile.closed = tile.rows.len() * tile.cols.len();
             tile.trace(s, maps, (self.row, col), &mut self.count);
-            tile.settle(s, maps);
+            tile.resolve(s, maps);
             tile.end(s, maps, self.hits);
         }
         self.count
@@ -266,7 +266,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
 
     /// Decides the hits that tests left open.
     #[inline(always)]
-    fn settle<O: PackedObjects>(&mut self, s: S, maps: &RasterMaps<O>)
+    fn resolve<O: PackedObjects>(&mut self, s: S, maps: &RasterMaps<O>)
     where
         O::Blocks: Blocks<Many<S> = M>,
     {

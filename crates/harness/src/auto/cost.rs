@@ -5,8 +5,8 @@ use crate::clock::Clock;
 use crate::guard::guard;
 use crate::registry::{Choice, guarded_build};
 use crate::stats::geometric_mean;
-use crate::workload::{Batch, in_time, thin};
-use accel::{Need, RaySet, Scene};
+use crate::workload::{Batch, in_time, subsample};
+use accel::{Need, Scene};
 use primitives::KernelId;
 use std::time::Duration;
 
@@ -37,12 +37,8 @@ pub fn costs(choice: &Choice, scene: &Scene, batches: &[Batch], kernels: &[Kerne
 
 fn batch_costs(choices: &[Choice], scene: &Scene, batch: &Batch) -> Vec<Option<f64>> {
     let traits = &choices[0].entry.traits;
-    let mut rays = thin(batch.rays, MOST_RAYS);
-    let by_need = traits.by_need || !traits.lists;
-    let need = if by_need { Need::of(&rays) } else { Need::GENERAL };
-    if !traits.lists && !matches!(rays, RaySet::Raster(_)) {
-        return vec![None; choices.len()];
-    }
+    let mut rays = subsample(batch.rays, MOST_RAYS);
+    let need = if traits.by_need { Need::of(&rays) } else { Need::GENERAL };
     let built: Vec<_> = choices.iter().map(|choice| guarded_build(choice, scene, &need).ok()).collect();
     if let Some(accel) = built.iter().flatten().next().filter(|_| need.raster.is_none()) {
         rays = in_time(accel.as_ref(), &rays, batch.query, ROUND_TIME).into_owned();

@@ -16,9 +16,10 @@ use primitives::KernelId;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Kernels that are tried. The last is proven; [`KernelId::Double`] costs more and is not.
-pub const TRIED: [KernelId; 4] =
-    [KernelId::MollerTrumbore, KernelId::BaldwinWeber, KernelId::Watertight, KernelId::Exact];
+/// Kernels that are tried ([`KernelId::is_tried`]); the last is proven.
+pub fn tried() -> Vec<KernelId> {
+    KernelId::ALL.into_iter().filter(|kernel| kernel.is_tried()).collect()
+}
 
 /// Rays examined for a decision, at most.
 const MOST_RAYS: usize = 1 << 20;
@@ -62,7 +63,7 @@ impl<'s> Decider<'s> {
     pub fn decide(&mut self, choice: &Choice, limits: &Limits) -> Decision {
         let plain = |kernel, reason: String| Decision { kernel, reason, trials: Vec::new() };
         if !matches!(self.scene.geometry, Geometry::Triangles(_)) {
-            return plain(TRIED[0], "the scene has no triangles".to_owned());
+            return plain(KernelId::MollerTrumbore, "the scene has no triangles".to_owned());
         }
         if limits.ask_for_none() {
             return plain(
@@ -70,9 +71,10 @@ impl<'s> Decider<'s> {
                 format!("{} wanted; exact is proven to give none", limits.words()),
             );
         }
-        let ns = costs(choice, self.scene, self.batches, &TRIED);
+        let tried = tried();
+        let ns = costs(choice, self.scene, self.batches, &tried);
         let trial = |(kernel, ns)| Trial { kernel, ns, found: None };
-        let mut trials: Vec<Trial> = TRIED.into_iter().zip(ns).map(trial).collect();
+        let mut trials: Vec<Trial> = tried.into_iter().zip(ns).map(trial).collect();
         trials.sort_by(|a, b| a.ns.unwrap_or(f64::INFINITY).total_cmp(&b.ns.unwrap_or(f64::INFINITY)));
         let mut reason = format!("{} wanted", limits.words());
         let mut kernel = KernelId::Exact;
@@ -151,7 +153,7 @@ mod tests {
             for limit in [1e6, 1.0, 0.5, 1e-9] {
                 let decision = decider.decide(&choice, &at_most(limit));
                 is_sensible(&decision, &at_most(limit));
-                assert_eq!(decision.trials.len(), TRIED.len());
+                assert_eq!(decision.trials.len(), tried().len());
                 assert!(decision.kernel == KernelId::Exact || decision.reason.contains("6,000"));
             }
         }

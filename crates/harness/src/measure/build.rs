@@ -1,7 +1,7 @@
 //! Building: memory from one build, times from others.
 
 use super::Options;
-use super::watch::Watch;
+use super::deadline::Deadline;
 use crate::clock::Clock;
 use crate::record::Bytes;
 use crate::registry::{BuildFailure, Choice, guarded_build};
@@ -44,18 +44,18 @@ pub fn build_all<'s>(
     scene: &'s Scene,
     wanted: &[(&Choice, Need)],
     (options, pass): (&Options, usize),
-    watch: &Watch,
+    deadline: &Deadline,
     all: &mut Vec<Built<'s>>,
 ) -> Option<()> {
     for (choice, need) in &wanted[all.len()..] {
-        if watch.interrupted() {
+        if deadline.interrupted() {
             return None;
         }
         all.push(watched(scene, choice, need));
     }
     for round in 0..options.due(options.build_rounds, pass) {
         for place in 0..wanted.len() {
-            if watch.interrupted() {
+            if deadline.interrupted() {
                 return None;
             }
             let i = (place + round) % wanted.len();

@@ -9,7 +9,7 @@ use crate::check::{self, Reference, compare};
 use crate::guard::guard;
 use crate::record::{Cell, Check, Outcome, Query};
 use crate::registry::Choice;
-use crate::workload::{Workload, in_time, sample, thin};
+use crate::workload::{Workload, in_time, sample, subsample};
 use accel::{Accel, Builder, Counters, Geometry, Need, RaySet, Scene};
 use baselines::Brute;
 use judge::{Judge, Tolerance};
@@ -85,7 +85,7 @@ pub fn ray_set<'w>(
     let mut checked = Checked::new();
     let mut all: Vec<(Entry, Option<Answers>)> = Vec::new();
     for (choice, built) in entrants {
-        if job.watch.interrupted() {
+        if job.deadline.interrupted() {
             return None;
         }
         let name = (workload.id, choice.spec.to_string());
@@ -112,7 +112,7 @@ pub fn ray_set<'w>(
             }),
         }
     }
-    rounds(&mut runners, (job.options, pass), job.watch)?;
+    rounds(&mut runners, (job.options, pass), job.deadline)?;
     let done: Vec<_> = runners.into_iter().map(|r| (r.trace_ns, r.first, r.failure)).collect();
     let mut done = done.into_iter();
     let mut cells = Vec::new();
@@ -180,10 +180,10 @@ fn enter<'w>(
 
 /// The rays that a structure has time for.
 fn rays_for<'w>(job: &Job, workload: &'w Workload, choice: &Choice, built: &Built) -> Cow<'w, RaySet> {
-    if choice.entry.traits.thins(&workload.rays) {
+    if choice.entry.traits.subsamples(&workload.rays) {
         let objects = job.scene.geometry.len();
         let few = (job.options.linear_tests / objects.max(1) as u64).max(16) as usize;
-        return Cow::Owned(thin(&workload.rays, few));
+        return Cow::Owned(subsample(&workload.rays, few));
     }
     match &built.accel {
         Ok(accel) if !of_one_raster(choice, &workload.rays) => {
@@ -203,7 +203,7 @@ fn warm_up(choice: &Choice, built: &Built, entry: &Entry) {
     let (Ok(accel), None) = (&built.accel, &entry.failure) else { return };
     let rays = match entry.rays.as_ref() {
         rays if of_one_raster(choice, rays) => Cow::Borrowed(rays),
-        rays => Cow::Owned(thin(rays, rays.len().div_ceil(8))),
+        rays => Cow::Owned(subsample(rays, rays.len().div_ceil(8))),
     };
     let mut answers = Answers::new(entry.cell.query, rays.len());
     // Whoever panics here does so again in the first sample, where it is recorded.

@@ -1,10 +1,10 @@
 //! What is to be measured on a scene, and what of it is there already.
 
-use super::{Options, Watch};
+use super::{Deadline, Options};
 use crate::record::Cell;
 use crate::registry::Choice;
 use crate::workload::Workload;
-use accel::{RaySet, Scene};
+use accel::Scene;
 
 /// What is to be measured on a scene.
 pub struct Job<'a> {
@@ -19,17 +19,14 @@ pub struct Job<'a> {
     /// Cells of the scene that are there already, with all their passes or some.
     pub known: &'a [Cell],
     /// When to stop.
-    pub watch: &'a Watch,
+    pub deadline: &'a Deadline,
 }
 
 impl Job<'_> {
-    /// Whether a cell is to be measured in a pass: it is served, and not there already.
+    /// Whether a cell is to be measured in a pass: it is not there already.
     pub fn wants(&self, workload: &Workload, choice: &Choice, pass: usize) -> bool {
-        let served = choice.entry.traits.lists || matches!(workload.rays, RaySet::Raster(_));
-        served
-            && self
-                .known(workload, choice)
-                .is_none_or(|cell| cell.outcome.is_measured() && cell.passes.len() <= pass)
+        self.known(workload, choice)
+            .is_none_or(|cell| cell.outcome.is_measured() && cell.passes.len() <= pass)
     }
 
     /// Whether any pass wants a cell.

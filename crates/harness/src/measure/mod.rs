@@ -7,6 +7,7 @@
 //! outside of the timed section.
 
 mod build;
+mod deadline;
 mod entry;
 mod failure;
 mod job;
@@ -19,8 +20,8 @@ mod session;
 #[cfg(test)]
 mod tests;
 mod trace;
-mod watch;
 
+pub use deadline::Deadline;
 pub use failure::Failure;
 pub use job::Job;
 pub use memory::{RESOLUTIONS, memory_rows};
@@ -29,4 +30,3 @@ pub use resume::{ResumeError, resume};
 pub use run::{SessionError, run};
 pub use scene::measure;
 pub use session::{Session, begin};
-pub use watch::Watch;

@@ -79,14 +79,27 @@ pub fn resume(old: Record, session: &Session, choices: &[Choice]) -> Result<Reco
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::{Watch, run};
+    use crate::measure::{Deadline, run};
     use crate::record::Skipped;
     use crate::registry;
+    use crate::workload::Subject;
     use scenes::rays::RaysId;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
     fn session(size: u32) -> Session {
         let (scenes, rays) = (vec!["unit-one".to_owned()], vec![RaysId::Random]);
-        Session { scenes, rays, size, seed: 1, command: "rayscale measure".to_owned(), ..Session::default() }
+        let subject = Subject { scenes, rays, size, seed: 1 };
+        Session { subject, command: "rayscale measure".to_owned(), ..Session::default() }
+    }
+
+    /// Two ray sets, and what stops the run.
+    fn stoppable() -> (Session, Arc<AtomicBool>) {
+        let mut session = session(16);
+        session.subject.rays = vec![RaysId::Random, RaysId::Parallel];
+        let flag = Arc::new(AtomicBool::new(false));
+        session.deadline = Deadline::new(flag.clone(), None);
+        (session, flag)
     }
 
     fn choices(ids: &[&str]) -> Vec<Choice> {
@@ -147,11 +160,9 @@ mod tests {
 
     #[test]
     fn an_interruption_leaves_whole_ray_sets() {
-        let mut session = Session { rays: vec![RaysId::Random, RaysId::Parallel], ..session(16) };
-        let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
-        session.watch = Watch::new(flag.clone(), None);
+        let (session, flag) = stoppable();
         let choices = choices(&["ssm", "minmax"]);
-        let stop = |_: &Record| flag.store(true, std::sync::atomic::Ordering::Relaxed);
+        let stop = |_: &Record| flag.store(true, Relaxed);
         let record = run(&session, &choices, begin(&session, &choices), (), stop).unwrap();
         assert_eq!(record.cells.len(), 2);
         assert!(!record.run.unwrap().complete);
@@ -159,19 +170,17 @@ mod tests {
 
     #[test]
     fn passes_that_are_lacking_are_added() {
-        let mut session = Session { rays: vec![RaysId::Random, RaysId::Parallel], ..session(16) };
-        let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
-        session.watch = Watch::new(flag.clone(), None);
+        let (session, flag) = stoppable();
         let choices = choices(&["ssm", "minmax"]);
         let stop = |record: &Record| {
             let again = record.cells[0].passes.len() == 2;
-            flag.store(again, std::sync::atomic::Ordering::Relaxed);
+            flag.store(again, Relaxed);
         };
         let begun = run(&session, &choices, begin(&session, &choices), (), stop).unwrap();
         let passes = |record: &Record| record.cells.iter().map(|c| c.passes.len()).collect::<Vec<_>>();
         assert_eq!(passes(&begun), [2, 2, 1, 1]);
         assert!(!begun.run.unwrap().complete);
-        flag.store(false, std::sync::atomic::Ordering::Relaxed);
+        flag.store(false, Relaxed);
         let whole = resume(begun.clone(), &session, &choices).unwrap();
         let whole = run(&session, &choices, whole, (), |_| ()).unwrap();
         assert_eq!(passes(&whole), [3; 4]);
@@ -184,7 +193,7 @@ mod tests {
     #[test]
     fn without_time_everything_is_named_as_left_out() {
         let session =
-            Session { watch: Watch::new(Default::default(), Some(Default::default())), ..session(16) };
+            Session { deadline: Deadline::new(Default::default(), Some(Default::default())), ..session(16) };
         let choices = choices(&["ssm"]);
         let record = run(&session, &choices, begin(&session, &choices), (), |_| ()).unwrap();
         assert!(record.cells.is_empty() && record.skipped.iter().any(|s| s.id == "unit-one"));

@@ -38,8 +38,8 @@ pub fn run(
     mut listener: impl Listener,
     mut keep: impl FnMut(&Record),
 ) -> Result<Record, SessionError> {
-    for (i, id) in session.scenes.iter().enumerate() {
-        if session.watch.interrupted() {
+    for (i, id) in session.subject.scenes.iter().enumerate() {
+        if session.deadline.interrupted() {
             return Ok(record);
         }
         let spec: SceneSpec = id.parse()?;
@@ -54,7 +54,7 @@ pub fn run(
             Err(error) => return Err(error.into()),
         };
         let scene = &loaded.scene;
-        if session.watch.is_over() {
+        if session.deadline.is_over() {
             skip(&mut record, scene.id.clone(), TIME_UP.to_owned());
             keep(&record);
             continue;
@@ -62,7 +62,7 @@ pub fn run(
         listener.hear(&Event::SceneBegun {
             id: &scene.id,
             place: i + 1,
-            of: session.scenes.len(),
+            of: session.subject.scenes.len(),
             objects: scene.geometry.len(),
             kind: scene.geometry.kind(),
         });
@@ -77,10 +77,10 @@ pub fn run(
             checksum: scenes::checksum(&scene.geometry),
         };
         enter(&mut record, entry)?;
-        let options = share_of_time(session, choices, session.scenes.len() - i);
+        let options = share_of_time(session, choices, session.subject.scenes.len() - i);
         one_scene(session, choices, scene, &options, &mut record, &mut listener, &mut keep);
     }
-    if let Some(run) = record.run.as_mut().filter(|_| !session.watch.interrupted()) {
+    if let Some(run) = record.run.as_mut().filter(|_| !session.deadline.interrupted()) {
         run.complete = true;
         keep(&record);
     }
@@ -92,9 +92,9 @@ const TIME_UP: &str = "the time was up";
 /// The options for a scene when `scenes` of them are left.
 fn share_of_time(session: &Session, choices: &[Choice], scenes: usize) -> Options {
     let mut options = session.options.clone();
-    if let Some(left) = session.watch.left() {
+    if let Some(left) = session.deadline.left() {
         // Builds, checks and memory take several times as long as the samples.
-        let cells = scenes * session.rays.len() * choices.len();
+        let cells = scenes * session.subject.rays.len() * choices.len();
         let share = left / cells.max(1) as u32;
         options.cell_time = options.cell_time.min(share.mul_f64(0.2));
         options.sample_time = options.sample_time.min(share / 2);
@@ -139,11 +139,12 @@ fn one_scene(
     keep: &mut impl FnMut(&Record),
 ) {
     let Workloads { made: workloads, left_out } =
-        workload::make(scene, &session.rays, session.size, session.seed);
+        workload::make(scene, &session.subject.rays, session.subject.size, session.subject.seed);
     record.skipped.extend(left_out.iter().map(|(id, error)| Skipped::rays(&scene.id, id, error)));
     let here = |cell: &&Cell| cell.scene == scene.id && cell.threads == options.threads;
     let known: Vec<Cell> = record.cells.iter().filter(here).cloned().collect();
-    let job = Job { scene, workloads: &workloads, choices, options, known: &known, watch: &session.watch };
+    let job =
+        Job { scene, workloads: &workloads, choices, options, known: &known, deadline: &session.deadline };
     let is_known = |w: &Workload| known.iter().any(|cell| cell.rays == w.id.name());
     let mut left: Vec<&Workload> =
         workloads.iter().filter(|w| choices.iter().any(|c| job.lacks(w, c)) && !is_known(w)).collect();
@@ -153,7 +154,7 @@ fn one_scene(
         keep(record);
         listener.hear(&Event::RaySetDone { rays: workload.id, pass: pass + 1, passes: options.passes() });
     });
-    if session.watch.interrupted() {
+    if session.deadline.interrupted() {
         return;
     }
     record.skipped.extend(left.iter().map(|w| Skipped::rays(&scene.id, &w.id, &TIME_UP)));

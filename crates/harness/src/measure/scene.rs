@@ -10,7 +10,7 @@ use accel::{Need, RaySet};
 
 /// Builds, checks and measures in passes; one cell for every structure and ray set, except lists of rays for
 /// structures that serve none. `keep` gets the cells of a ray set, as they are by then, whenever it is done in a pass
-/// (the first is 0); no ray set begins after the watch's end, and what is interrupted adds nothing to its cells.
+/// (the first is 0); no ray set begins after the deadline, and what is interrupted adds nothing to its cells.
 ///
 /// Runs in the current thread pool.
 pub fn measure(job: &Job, keep: impl FnMut(&Workload, usize, Vec<Cell>)) {
@@ -31,19 +31,19 @@ fn all_passes(job: &Job, mut keep: impl FnMut(&Workload, usize, Vec<Cell>)) -> O
     let (lists, rasters): (Vec<_>, Vec<_>) =
         job.workloads.iter().partition(|w| matches!(w.rays, RaySet::List(_)));
     let general: Vec<_> = wanted(false, &[&lists[..], &rasters[..]].concat());
-    let general: Vec<_> = general.into_iter().map(|c| (c, need_of_all(c, job))).collect();
+    let general: Vec<_> = general.into_iter().map(|c| (c, Need::GENERAL)).collect();
     let for_lists: Vec<_> = wanted(true, &lists).into_iter().map(|c| (c, Need::GENERAL)).collect();
     let (mut built, mut built_for_lists) = (Vec::new(), Vec::new());
     let mut built_for_rasters: Vec<Vec<Built>> = job.workloads.iter().map(|_| Vec::new()).collect();
     for pass in 0..job.options.passes() {
-        if job.watch.is_over() {
+        if job.deadline.is_over() {
             return None;
         }
         let due = (job.options, pass);
-        build_all(job.scene, &general, due, job.watch, &mut built)?;
-        build_all(job.scene, &for_lists, due, job.watch, &mut built_for_lists)?;
+        build_all(job.scene, &general, due, job.deadline, &mut built)?;
+        build_all(job.scene, &for_lists, due, job.deadline, &mut built_for_lists)?;
         for (workload, for_raster) in job.workloads.iter().zip(&mut built_for_rasters) {
-            if job.watch.is_over() {
+            if job.deadline.is_over() {
                 return None;
             }
             let mut entrants: Vec<(&Choice, &Built)> = choices_of(&general).zip(&built).collect();
@@ -52,7 +52,7 @@ fn all_passes(job: &Job, mut keep: impl FnMut(&Workload, usize, Vec<Cell>)) -> O
                 RaySet::Raster(_) => {
                     let need = Need::of(&workload.rays);
                     let wanted: Vec<_> = wanted(true, &[workload]).into_iter().map(|c| (c, need)).collect();
-                    build_all(job.scene, &wanted, due, job.watch, for_raster)?;
+                    build_all(job.scene, &wanted, due, job.deadline, for_raster)?;
                     entrants.extend(wanted.iter().map(|(c, _)| *c).zip(&*for_raster));
                 }
             }
@@ -74,12 +74,4 @@ fn choices_of<'c>(wanted: &[(&'c Choice, Need)]) -> impl Iterator<Item = &'c Cho
 
 fn by_need(choice: &Choice) -> bool {
     choice.entry.traits.by_need
-}
-
-fn need_of_all(choice: &Choice, job: &Job) -> Need {
-    let raster = job.workloads.iter().map(|w| Need::of(&w.rays)).find(|need| need.raster.is_some());
-    match raster {
-        Some(need) if !choice.entry.traits.lists => need,
-        _ => Need::GENERAL,
-    }
 }

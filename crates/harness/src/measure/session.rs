@@ -1,31 +1,25 @@
 //! What a run is asked for, and the record that it begins with.
 
-use super::{Options, Watch};
+use super::{Deadline, Options};
 use crate::clock::Clock;
 use crate::machine::Machine;
 use crate::record::{FORMAT, Record, Run, Skipped, Structure, Suite};
 use crate::registry::{self, Choice};
-use scenes::rays::RaysId;
+use crate::workload::Subject;
 use std::time::SystemTime;
 
 /// What is to be measured.
 #[derive(Clone, Debug, Default)]
 pub struct Session {
-    /// Scenes by name.
-    pub scenes: Vec<String>,
-    /// Ray sets.
-    pub rays: Vec<RaysId>,
-    /// Rows and columns of rasters; lists have as many rays.
-    pub size: u32,
-    /// Seed of lists.
-    pub seed: u64,
+    /// Scenes and ray sets.
+    pub subject: Subject,
     /// How much is measured.
     pub options: Options,
     /// Whether memory by resolution is recorded.
     pub memory: bool,
     /// When to stop. Where time is limited, the cells that are left share what is left of it; after its end no new
     /// ray set begins, and those are recorded as skipped.
-    pub watch: Watch,
+    pub deadline: Deadline,
     /// The command as given.
     pub command: String,
 }
@@ -50,8 +44,8 @@ pub fn begin(session: &Session, choices: &[Choice]) -> Record {
         suite: Suite::this(),
         machine: Machine::here(),
         run: Some(Run {
-            size: session.size,
-            seed: session.seed,
+            size: session.subject.size,
+            seed: session.subject.seed,
             threads: session.options.threads,
             clock: Clock::of(session.options.threads),
             rounds: session.options.rounds,

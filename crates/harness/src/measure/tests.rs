@@ -33,8 +33,8 @@ fn cells(choices: &[Choice], options: &Options) -> Vec<Cell> {
     let (scene, rays) = testing::cloud(400, 2000);
     let workloads = workloads(rays);
     let mut told = Vec::new();
-    let watch = Watch::default();
-    let job = Job { scene: &scene, workloads: &workloads, choices, options, known: &[], watch: &watch };
+    let deadline = Deadline::default();
+    let job = Job { scene: &scene, workloads: &workloads, choices, options, known: &[], deadline: &deadline };
     let mut cells: Vec<Cell> = Vec::new();
     measure(&job, |workload, pass, more| {
         told.push((pass, workload.id));

@@ -1,8 +1,8 @@
 //! Tracing: samples of all structures on one ray set, interleaved.
 
 use super::Options;
+use super::deadline::Deadline;
 use super::failure::Failure;
-use super::watch::Watch;
 use crate::answers::Answers;
 use crate::clock::Clock;
 use crate::guard::guard;
@@ -28,7 +28,7 @@ pub struct Runner<'a> {
 
 /// Takes samples round by round, every round beginning with another structure, until as many are there as are due by
 /// the end of a pass, or the time of all runners is spent. None if interrupted.
-pub fn rounds(runners: &mut [Runner], (options, pass): (&Options, usize), watch: &Watch) -> Option<()> {
+pub fn rounds(runners: &mut [Runner], (options, pass): (&Options, usize), deadline: &Deadline) -> Option<()> {
     let running = || runners.iter().filter(|r| r.failure.is_none());
     let time = options.time_due(options.cell_time, pass) * running().count() as u32;
     let mut spent: Duration = running().flat_map(|r| &r.trace_ns).copied().map(Duration::from_nanos).sum();
@@ -38,7 +38,7 @@ pub fn rounds(runners: &mut [Runner], (options, pass): (&Options, usize), watch:
             break;
         }
         for place in 0..runners.len() {
-            if watch.interrupted() {
+            if deadline.interrupted() {
                 return None;
             }
             let i = (place + round) % runners.len();
@@ -54,7 +54,7 @@ fn sample(runner: &mut Runner, clock: Clock) -> Duration {
     }
     let new = || Answers::new(runner.query, runner.rays.len());
     let mut answers = runner.first.clone().unwrap_or_else(new);
-    answers.spoil();
+    answers.poison();
     let start = clock.now();
     let traced = guard("tracing", || answers.trace(runner.accel, runner.rays));
     let took = clock.now() - start;

@@ -82,8 +82,6 @@ pub struct Traits {
     pub linear: bool,
     /// What is built depends on the need: another build for every raster.
     pub by_need: bool,
-    /// Serves lists of rays.
-    pub lists: bool,
     /// Its memory comes from this program's allocator, so that peaks can be counted.
     pub counted: bool,
     /// Suits scenes of any size, so that it is worth trying with every kernel.
@@ -99,7 +97,6 @@ impl Traits {
         built_in: true,
         linear: false,
         by_need: false,
-        lists: true,
         counted: true,
         any_kernel: false,
         leaks: false,
@@ -111,7 +108,7 @@ impl Traits {
 impl Traits {
     /// Whether such a structure is given fewer rays than the set has. A raster that it was built for
     /// is traced as it is.
-    pub fn thins(&self, rays: &RaySet) -> bool {
+    pub fn subsamples(&self, rays: &RaySet) -> bool {
         self.linear && !(self.by_need && matches!(rays, RaySet::Raster(_)))
     }
 }

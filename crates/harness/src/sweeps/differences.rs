@@ -7,11 +7,10 @@ use crate::guard::guard;
 use crate::progress::{Event, Listener};
 use crate::record::Query;
 use crate::registry::{Choice, guarded_build};
-use crate::workload::{self, Workload, batches, in_time, thin};
+use crate::workload::{self, Subject, Workload, batches, in_time, subsample};
 use accel::{Accel, Need, RaySet, Scene};
 use primitives::KernelId;
 use rayon::prelude::*;
-use scenes::rays::RaysId;
 use scenes::{SceneError, SceneSpec};
 use serde::Serialize;
 use std::borrow::Cow;
@@ -22,14 +21,8 @@ use std::time::Duration;
 /// What is checked.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// Scenes by name.
-    pub scenes: Vec<String>,
-    /// Ray sets.
-    pub rays: Vec<RaysId>,
-    /// Rows and columns of rasters; lists have as many rays.
-    pub size: u32,
-    /// Seed of lists.
-    pub seed: u64,
+    /// Scenes and ray sets.
+    pub subject: Subject,
     /// Rays to be compared for each structure, variants counted together: with more
     /// seeds until it is reached. 0 for one pass.
     pub rays_each: u64,
@@ -95,10 +88,10 @@ pub fn run(sweep: &Sweep, choices: &[Choice], mut listener: impl Listener) -> Re
     let mut pass = 0;
     loop {
         let before: u64 = tally.structures.iter().map(|row| row.rays).sum();
-        for id in &sweep.scenes {
+        for id in &sweep.subject.scenes {
             let spec: SceneSpec = id.parse()?;
             match scenes::load(&spec) {
-                Ok(scene) => one_scene(sweep, &scene, choices, sweep.seed + pass, &mut tally),
+                Ok(scene) => one_scene(sweep, &scene, choices, sweep.subject.seed + pass, &mut tally),
                 Err(error) if error.is_unavailable() => tally.findings.push(unavailable(&error)),
                 Err(error) => return Err(error),
             }
@@ -119,11 +112,11 @@ fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally:
     let few = (sweep.tests / 16 / scene.geometry.len().max(1) as u64).max(1);
     let few = usize::try_from(few).unwrap_or(usize::MAX);
     // A set that has no rays on this scene (no objects, no hits) is nothing to check.
-    let workloads = workload::make(scene, &sweep.rays, sweep.size, seed).made;
+    let workloads = workload::make(scene, &sweep.subject.rays, sweep.subject.size, seed).made;
     let choices = crate::auto::resolve(choices, scene, &batches(&workloads));
     let sets: Vec<Set> = workloads
         .into_iter()
-        .map(|set| Set { thinned: thin(&set.rays, few), set, right: Mutex::default() })
+        .map(|set| Set { subsampled: subsample(&set.rays, few), set, right: Mutex::default() })
         .collect();
     let found: Vec<Found> =
         choices.par_iter().map(|choice| one_choice(sweep, scene, choice, &sets)).collect();
@@ -141,7 +134,7 @@ fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally:
 struct Set {
     set: Workload,
     /// For structures whose time grows with the number of objects.
-    thinned: RaySet,
+    subsampled: RaySet,
     right: Mutex<BTreeMap<(KernelId, Query, usize), Arc<Reference>>>,
 }
 
@@ -194,12 +187,8 @@ fn one_choice(sweep: &Sweep, scene: &Scene, choice: &Choice, sets: &[Set]) -> Fo
     let mut found = Found::default();
     let mut built: Option<(Need, Box<dyn Accel + '_>)> = None;
     for set in sets {
-        let rays = if traits.thins(&set.set.rays) { &set.thinned } else { &set.set.rays };
-        let raster = matches!(rays, RaySet::Raster(_));
-        if !traits.lists && !raster {
-            continue;
-        }
-        let need = if traits.by_need || !traits.lists { Need::of(rays) } else { Need::GENERAL };
+        let rays = if traits.subsamples(&set.set.rays) { &set.subsampled } else { &set.set.rays };
+        let need = if traits.by_need { Need::of(rays) } else { Need::GENERAL };
         let accel = match built.take().filter(|(known, _)| *known == need) {
             Some((_, accel)) => accel,
             None => match guarded_build(choice, scene, &need) {
@@ -258,17 +247,13 @@ fn finding(tally: &mut Tally, text: String) {
 mod tests {
     use super::*;
     use crate::registry;
+    use scenes::rays::RaysId;
 
     fn sweep(ids: &[&str]) -> Tally {
         let choices: Vec<_> = ids.iter().map(|id| registry::parse(id).unwrap()).collect();
-        let sweep = Sweep {
-            scenes: vec!["unit-one".into(), "small-100".into()],
-            rays: RaysId::ALL.to_vec(),
-            size: 12,
-            seed: 1,
-            rays_each: 10_000,
-            tests: 100_000_000,
-        };
+        let scenes = vec!["unit-one".into(), "small-100".into()];
+        let subject = Subject { scenes, rays: RaysId::ALL.to_vec(), size: 12, seed: 1 };
+        let sweep = Sweep { subject, rays_each: 10_000, tests: 100_000_000 };
         run(&sweep, &choices, ()).unwrap()
     }
 

@@ -5,7 +5,7 @@ use crate::check::oracle_of;
 use crate::guard::guard;
 use crate::progress::{Event, Listener};
 use crate::registry::{Choice, guarded_build};
-use crate::workload::{self, batches};
+use crate::workload::{self, Subject, batches};
 use accel::{Geometry, Hit, Need, RaySet, Scene};
 use oracle::{ExactHit, Verdict, classify};
 use rayon::prelude::*;
@@ -16,14 +16,8 @@ use serde::Serialize;
 /// What is judged.
 #[derive(Clone, Debug)]
 pub struct OraclePlan {
-    /// Scenes by name; those of boxes are passed over.
-    pub scenes: Vec<String>,
-    /// Ray sets; those that only ask whether there is a hit are passed over.
-    pub rays: Vec<RaysId>,
-    /// Rows and columns of rasters; lists have as many rays.
-    pub size: u32,
-    /// Seed of lists.
-    pub seed: u64,
+    /// Scenes and ray sets; scenes of boxes are passed over, and sets that only ask whether there is a hit.
+    pub subject: Subject,
     /// Rays to be judged at least: with more seeds until it is reached.
     pub least: u64,
 }
@@ -96,7 +90,7 @@ pub fn run(
     let mut tally = OracleTally { structures: choices.iter().map(row).collect(), ..OracleTally::default() };
     for pass in 0.. {
         let before = tally.rays;
-        for id in &plan.scenes {
+        for id in &plan.subject.scenes {
             if pass > 0 && tally.rays >= plan.least {
                 break;
             }
@@ -108,13 +102,13 @@ pub fn run(
                 }
                 Err(error) => return Err(error),
             };
-            one_scene(plan, &scene, choices, plan.seed + pass, &mut tally);
+            one_scene(plan, &scene, choices, plan.subject.seed + pass, &mut tally);
             if pass == 0 {
                 listener.hear(&Event::SceneChecked { id });
             }
         }
         if pass == 0 {
-            tally.scenes = plan.scenes.len() - tally.findings.len();
+            tally.scenes = plan.subject.scenes.len() - tally.findings.len();
         }
         if tally.rays >= plan.least || tally.rays == before {
             break;
@@ -128,8 +122,9 @@ fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, ta
         return;
     }
     let oracle = oracle_of(scene);
-    let sets: Vec<RaysId> = plan.rays.iter().copied().filter(|id| id.query() == Query::Closest).collect();
-    let workloads = workload::make(scene, &sets, plan.size, seed).made;
+    let sets: Vec<RaysId> =
+        plan.subject.rays.iter().copied().filter(|id| id.query() == Query::Closest).collect();
+    let workloads = workload::make(scene, &sets, plan.subject.size, seed).made;
     let choices = crate::auto::resolve(choices, scene, &batches(&workloads));
     let general: Vec<_> = choices.iter().map(|c| guarded_build(c, scene, &Need::GENERAL)).collect();
     for workload in &workloads {
@@ -211,13 +206,9 @@ mod tests {
     fn the_exact_kernel_passes_and_rounding_ones_fail() {
         let choices =
             ["ssm:kernel=exact", "bmssm:kernel=exact", "ssm"].map(|id| registry::parse(id).unwrap());
-        let plan = OraclePlan {
-            scenes: vec!["bumps-1k@offset=1e4,0,0".into(), "unit-boxes".into(), "unit-coplanar".into()],
-            rays: RaysId::ALL.to_vec(),
-            size: 12,
-            seed: 1,
-            least: 6000,
-        };
+        let scenes = vec!["bumps-1k@offset=1e4,0,0".into(), "unit-boxes".into(), "unit-coplanar".into()];
+        let subject = Subject { scenes, rays: RaysId::ALL.to_vec(), size: 12, seed: 1 };
+        let plan = OraclePlan { subject, least: 6000 };
         let tally = run(&plan, &choices, ()).unwrap();
         assert!(tally.rays >= 6000 && tally.aimed > 1000, "{tally:?}");
         assert!(!tally.is_exact());

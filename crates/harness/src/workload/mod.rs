@@ -4,13 +4,26 @@ mod pace;
 mod subset;
 
 pub use pace::in_time;
-pub use subset::{pick, sample, thin};
+pub use subset::{pick, sample, subsample};
 
 use crate::record::Query;
 use crate::registry;
 use accel::{RaySet, Scene};
 use primitives::KernelId;
 use scenes::rays::{self, RaysError, RaysId, RaysSpec};
+
+/// Ray sets of scenes, as they are asked for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Subject {
+    /// Scenes by name.
+    pub scenes: Vec<String>,
+    /// Ray sets.
+    pub rays: Vec<RaysId>,
+    /// Rows and columns of rasters; lists have as many rays.
+    pub size: u32,
+    /// Seed of lists.
+    pub seed: u64,
+}
 
 /// A ray set of a scene.
 #[derive(Clone, Debug, PartialEq)]

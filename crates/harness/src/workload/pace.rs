@@ -1,6 +1,6 @@
 //! Fewer rays for structures that would take too long.
 
-use super::thin;
+use super::subsample;
 use crate::answers::Answers;
 use crate::clock::Clock;
 use crate::guard::{Panicked, guard};
@@ -17,7 +17,7 @@ const FEW: usize = 64;
 ///
 /// A structure that was built for one raster can't be asked for fewer of its rays.
 pub fn in_time<'a>(accel: &dyn Accel, rays: &'a RaySet, query: Query, time: Duration) -> Cow<'a, RaySet> {
-    let few = thin(rays, FEW);
+    let few = subsample(rays, FEW);
     let mut answers = Answers::new(query, few.len());
     let clock = Clock::of(rayon::current_num_threads());
     let run = || {
@@ -34,5 +34,5 @@ pub fn in_time<'a>(accel: &dyn Accel, rays: &'a RaySet, query: Query, time: Dura
     while fit > FEW && fit as f64 * each > time.as_secs_f64() {
         fit = fit.div_ceil(4);
     }
-    if fit == rays.len() { Cow::Borrowed(rays) } else { Cow::Owned(thin(rays, fit)) }
+    if fit == rays.len() { Cow::Borrowed(rays) } else { Cow::Owned(subsample(rays, fit)) }
 }

@@ -4,7 +4,7 @@ use accel::{Raster, RaySet};
 
 /// At most about `most` rays of a set, spread evenly: a coarser raster of the same image, or
 /// every k-th ray of a list.
-pub fn thin(rays: &RaySet, most: usize) -> RaySet {
+pub fn subsample(rays: &RaySet, most: usize) -> RaySet {
     let most = most.max(1);
     if rays.len() <= most {
         return rays.clone();
@@ -53,21 +53,21 @@ mod tests {
     #[test]
     fn thin_rasters_show_the_same_image() {
         let raster = testing::raster(200, 100);
-        let RaySet::Raster(thin) = thin(&RaySet::Raster(raster), 200) else { panic!() };
-        assert_eq!((thin.rows, thin.cols), (20, 10));
+        let RaySet::Raster(subsample) = subsample(&RaySet::Raster(raster), 200) else { panic!() };
+        assert_eq!((subsample.rows, subsample.cols), (20, 10));
         let ends = |r: &Raster| (r.down * r.rows as f32, r.right * r.cols as f32);
         let off = |a: Vec3, b: Vec3| (a - b).length();
-        let ((down, right), (whole_down, whole_right)) = (ends(&thin), ends(&raster));
+        let ((down, right), (whole_down, whole_right)) = (ends(&subsample), ends(&raster));
         assert!(off(down, whole_down) < 1e-5 && off(right, whole_right) < 1e-5);
-        assert_eq!(super::thin(&RaySet::Raster(raster), 20_000), RaySet::Raster(raster));
+        assert_eq!(super::subsample(&RaySet::Raster(raster), 20_000), RaySet::Raster(raster));
     }
 
     #[test]
     fn thin_lists_and_samples_are_spread() {
         let list = pick(&RaySet::Raster(testing::raster(10, 10)), &(0..100).collect::<Vec<_>>());
-        let RaySet::List(thin) = thin(&list, 7) else { panic!() };
-        assert_eq!(thin.len(), 7);
-        assert_eq!(thin[3], list.ray(42));
+        let RaySet::List(subsample) = subsample(&list, 7) else { panic!() };
+        assert_eq!(subsample.len(), 7);
+        assert_eq!(subsample[3], list.ray(42));
         let numbers = sample(1000, 64);
         assert_eq!(numbers.len(), 64);
         assert!(numbers.windows(2).all(|w| w[0] < w[1]) && numbers[63] < 1000);

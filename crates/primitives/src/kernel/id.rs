@@ -4,6 +4,7 @@ use accel::settings::one_of;
 
 /// Names a kernel in settings and records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum KernelId {
     /// [`MollerTrumbore`](super::MollerTrumbore)
     MollerTrumbore,
@@ -14,6 +15,7 @@ pub enum KernelId {
     /// [`Double`](super::Double)
     Double,
     /// [`Exact`](super::Exact)
+    #[cfg(feature = "exact")]
     Exact,
     /// [`Quantised`](super::Quantised)
     Quantised,
@@ -21,39 +23,70 @@ pub enum KernelId {
     BoundingBox,
 }
 
+/// See the functions of [`KernelId`] of the same names.
+struct Traits {
+    id: &'static str,
+    lossy: bool,
+    watertight: bool,
+    tried: bool,
+    recommended: bool,
+}
+
 impl KernelId {
     /// All kernels there are.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 6 + cfg!(feature = "exact") as usize] = [
         Self::MollerTrumbore,
         Self::BaldwinWeber,
         Self::Watertight,
         Self::Double,
+        #[cfg(feature = "exact")]
         Self::Exact,
         Self::Quantised,
         Self::BoundingBox,
     ];
 
+    /// All that lists, choices and recommendations know of it.
+    const fn traits(self) -> Traits {
+        const OTHER: Traits =
+            Traits { id: "", lossy: false, watertight: false, tried: false, recommended: false };
+        match self {
+            Self::MollerTrumbore => Traits { id: "moller-trumbore", tried: true, recommended: true, ..OTHER },
+            Self::BaldwinWeber => Traits { id: "baldwin-weber", tried: true, ..OTHER },
+            Self::Watertight => {
+                Traits { id: "watertight", watertight: true, tried: true, recommended: true, ..OTHER }
+            }
+            // It costs more than the exact one and is not proven.
+            Self::Double => Traits { id: "double", ..OTHER },
+            #[cfg(feature = "exact")]
+            Self::Exact => Traits { id: "exact", watertight: true, tried: true, recommended: true, ..OTHER },
+            Self::Quantised => Traits { id: "quantised", lossy: true, recommended: true, ..OTHER },
+            Self::BoundingBox => Traits { id: "box", lossy: true, ..OTHER },
+        }
+    }
+
     /// Whether it takes the scene for another one: made for what is cheaper still, and wrong by design.
     pub const fn is_lossy(self) -> bool {
-        matches!(self, Self::Quantised | Self::BoundingBox)
+        self.traits().lossy
     }
 
     /// Whether no ray slips between two triangles that share an edge.
     pub const fn is_watertight(self) -> bool {
-        matches!(self, Self::Watertight | Self::Exact)
+        self.traits().watertight
+    }
+
+    /// Whether it is tried where the kernel is left to the suite.
+    pub const fn is_tried(self) -> bool {
+        self.traits().tried
+    }
+
+    /// Whether it is tried with every structure where one is to be recommended.
+    pub const fn is_recommended(self) -> bool {
+        self.traits().recommended
     }
 
     /// Name as used in settings and records.
     pub const fn id(self) -> &'static str {
-        match self {
-            Self::MollerTrumbore => "moller-trumbore",
-            Self::BaldwinWeber => "baldwin-weber",
-            Self::Watertight => "watertight",
-            Self::Double => "double",
-            Self::Exact => "exact",
-            Self::Quantised => "quantised",
-            Self::BoundingBox => "box",
-        }
+        self.traits().id
     }
 
     /// The kernel of that name.

@@ -13,6 +13,7 @@ mod baldwin_weber;
 mod bounding_box;
 mod deferral;
 mod double;
+#[cfg(feature = "exact")]
 mod exact;
 mod id;
 mod moller_trumbore;
@@ -23,12 +24,15 @@ mod quantisation_grid;
 mod quantised;
 mod storage;
 mod watertight;
+// The exact kernel alone looks at all of the products.
+#[cfg_attr(not(feature = "exact"), allow(dead_code))]
 mod wide;
 
 pub use baldwin_weber::BaldwinWeber;
 pub use bounding_box::BoundingBox;
 pub use deferral::{Deferral, Deferred};
 pub use double::Double;
+#[cfg(feature = "exact")]
 pub use exact::Exact;
 pub use id::KernelId;
 pub use moller_trumbore::MollerTrumbore;

@@ -11,6 +11,7 @@ use harness::sweeps::differences::{self, Sweep, Tally};
 use harness::sweeps::leaks::{self, LeakTally};
 use harness::sweeps::oracle::{self, OraclePlan, OracleTally};
 use harness::units;
+use harness::workload::Subject;
 use primitives::KernelId;
 use report::table::{Column, Table, Value, figure};
 use scenes::rays::RaysId;
@@ -85,18 +86,25 @@ impl Verb for Check {
 /// A scene whose corners fall together on a few points: thousands of integers decide each ray, so it is judged only where it is asked for.
 const SLOW: &str = "extreme-offset-10m";
 
+/// These scenes with the ray sets chosen, or all.
+fn subject(selection: &Selection, scenes: Vec<String>, size: u32) -> Result<Subject, Error> {
+    let rays = selection.rays(RaysId::ALL)?;
+    Ok(Subject { scenes, rays, size: selection.size.unwrap_or(size), seed: selection.seed })
+}
+
 /// The structures with a kernel that promises the truth, on the scenes chosen.
 fn by_oracle(console: &Console, selection: &Selection, least: u64) -> Result<OracleTally, Error> {
     let all = || scenes::list().into_iter().map(|info| info.id).filter(|id| id != SLOW).collect();
     let plan = OraclePlan {
-        scenes: if selection.scenes.is_empty() { all() } else { selection.scenes()? },
-        rays: selection.rays(RaysId::ALL)?,
-        size: selection.size.unwrap_or(48),
-        seed: selection.seed,
+        subject: subject(
+            selection,
+            if selection.scenes.is_empty() { all() } else { selection.scenes()? },
+            48,
+        )?,
         least,
     };
     let choices = selection.structures(&registry::with_kernels([KernelId::Exact]))?;
-    let mut progress = Progress::new(console, plan.scenes.len(), "judging");
+    let mut progress = Progress::new(console, plan.subject.scenes.len(), "judging");
     let tally = console.in_pool(0, || oracle::run(&plan, &choices, &mut progress))??;
     progress.finish();
     Ok(tally)
@@ -117,14 +125,8 @@ fn from_inside(console: &Console, selection: &Selection, least: u64) -> Result<L
 
 /// The structures chosen on the scenes chosen.
 fn plain(console: &Console, selection: &Selection) -> Result<Tally, Error> {
-    let sweep = Sweep {
-        scenes: selection.scenes()?,
-        rays: selection.rays(RaysId::ALL)?,
-        size: selection.size.unwrap_or(128),
-        seed: selection.seed,
-        rays_each: 0,
-        tests: 400_000_000,
-    };
+    let sweep =
+        Sweep { subject: subject(selection, selection.scenes()?, 128)?, rays_each: 0, tests: 400_000_000 };
     run(console, &sweep, selection, &registry::defaults())
 }
 
@@ -134,14 +136,8 @@ const FULL_SIZE: u32 = 96;
 /// The suite's own structures and their variants on the scenes that hunt for errors.
 pub fn full(console: &Console, selection: &Selection) -> Result<Tally, Error> {
     let scenes = if selection.scenes.is_empty() { differences::hunting() } else { selection.scenes()? };
-    let sweep = Sweep {
-        scenes,
-        rays: selection.rays(RaysId::ALL)?,
-        size: selection.size.unwrap_or(FULL_SIZE),
-        seed: selection.seed,
-        rays_each: 10_000_000,
-        tests: 400_000_000,
-    };
+    let sweep =
+        Sweep { subject: subject(selection, scenes, FULL_SIZE)?, rays_each: 10_000_000, tests: 400_000_000 };
     let own: Vec<StructureSpec> =
         registry::with_variants(|entry| entry.traits.built_in && entry.id != "brute");
     run(console, &sweep, selection, &own)
@@ -154,7 +150,7 @@ fn run(
     otherwise: &[StructureSpec],
 ) -> Result<Tally, Error> {
     let choices = selection.structures(otherwise)?;
-    let mut progress = Progress::new(console, sweep.scenes.len(), "checking");
+    let mut progress = Progress::new(console, sweep.subject.scenes.len(), "checking");
     let tally = console.in_pool(0, || differences::run(sweep, &choices, &mut progress))??;
     progress.finish();
     Ok(tally)

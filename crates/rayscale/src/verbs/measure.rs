@@ -7,10 +7,11 @@ use crate::options::Selection;
 use crate::progress::Progress;
 use crate::verb::{Outcome, Verb, command_line};
 use clap::Args;
-use harness::measure::{self, Options, Session, Watch};
+use harness::measure::{self, Deadline, Options, Session};
 use harness::record::{self, Cell, Record};
 use harness::registry::{self, Choice};
 use harness::units;
+use harness::workload::Subject;
 use scenes::rays::RaysId;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -90,10 +91,12 @@ pub fn measure(
     let choices = selection.structures(&registry::defaults())?;
     let defaults = Options::default();
     let session = Session {
-        scenes: selection.scenes()?,
-        rays: selection.rays(RaysId::measured())?,
-        size: selection.size.unwrap_or(SIZE),
-        seed: selection.seed,
+        subject: Subject {
+            scenes: selection.scenes()?,
+            rays: selection.rays(RaysId::measured())?,
+            size: selection.size.unwrap_or(SIZE),
+            seed: selection.seed,
+        },
         options: Options {
             threads: console.threads().unwrap_or(1),
             passes: usize::from(effort.passes.unwrap_or(if effort.rounds < 15 { 3 } else { 5 })),
@@ -103,11 +106,11 @@ pub fn measure(
             ..defaults
         },
         memory: !effort.no_memory,
-        watch: Watch::new(interrupt::flag(console)?, effort.time_budget),
+        deadline: Deadline::new(interrupt::flag(console)?, effort.time_budget),
         command: without_resume(&command_line()),
     };
     let begun = begun(&session, &choices, effort, out)?;
-    let steps = session.scenes.len() * session.rays.len() * session.options.passes();
+    let steps = session.subject.scenes.len() * session.subject.rays.len() * session.options.passes();
     let mut progress = Progress::new(console, steps, "measuring");
     let mut unwritten = None;
     let record = console.in_pool(1, || {

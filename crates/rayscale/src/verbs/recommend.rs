@@ -12,11 +12,13 @@ use harness::auto::Examiner;
 use harness::guard::guard;
 use harness::judge::{Counted, Tolerance};
 use harness::measure::{Options, Session, begin, run};
-use harness::recommend::{self, Answerer, Candidate, ErrorRate, ErrorRates, Recommendation, Wish, rank};
+use harness::recommend::{
+    self, Answerer, Candidate, Constraints, ErrorRate, ErrorRates, Recommendation, rank,
+};
 use harness::record::Record;
 use harness::registry::{self, Choice, StructureSpec, guarded_build};
 use harness::units;
-use harness::workload;
+use harness::workload::{self, Subject};
 use primitives::KernelId;
 use report::table::in_columns;
 use scenes::SceneSpec;
@@ -81,8 +83,9 @@ const FEW_OBJECTS: usize = 2000;
 const JUDGED: usize = 1 << 16;
 
 /// Kernels that are tried where accuracy counts, the default one first.
-const KERNELS: [KernelId; 4] =
-    [KernelId::MollerTrumbore, KernelId::Watertight, KernelId::Exact, KernelId::Quantised];
+fn kernels() -> impl Iterator<Item = KernelId> + Clone {
+    KernelId::ALL.into_iter().filter(|kernel| kernel.is_recommended())
+}
 
 impl Verb for Recommend {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
@@ -93,17 +96,17 @@ impl Verb for Recommend {
         let limits = self.limits.limits();
         let choices = choices(&scene, limits.any())?;
         let session = Session {
-            scenes: vec![self.scene.clone()],
-            rays,
-            size: 192,
-            seed: 1,
+            subject: Subject { scenes: vec![self.scene.clone()], rays, size: 192, seed: 1 },
             options: quick(console, self.rays_per_build.is_some()),
             ..Session::default()
         };
         console.note(format!("measuring {} structures on {}", choices.len(), scene.id));
-        let wish =
-            Wish { memory: self.memory, limits, rays_per_build: self.rays_per_build.map(|n| n as f64) };
-        let steps = session.rays.len() * session.options.passes();
+        let constraints = Constraints {
+            memory: self.memory,
+            limits,
+            rays_per_build: self.rays_per_build.map(|n| n as f64),
+        };
+        let steps = session.subject.rays.len() * session.options.passes();
         let mut progress = Progress::new(console, steps, "measuring");
         let (record, errors) = console.in_pool(1, || {
             let record = run(&session, &choices, begin(&session, &choices), &mut progress, |_| {});
@@ -112,10 +115,10 @@ impl Verb for Recommend {
         })?;
         progress.finish();
         let record = record?;
-        let ranking = rank(&record, &errors, &wish);
+        let ranking = rank(&record, &errors, &constraints);
         console.result(
-            &serde_json::json!({ "scene": scene.id, "wish": wish, "recommendation": ranking }),
-            in_words(&record, &wish, &ranking),
+            &serde_json::json!({ "scene": scene.id, "constraints": constraints, "recommendation": ranking }),
+            in_words(&record, &constraints, &ranking),
         )?;
         Ok(if ranking.fitting.is_empty() { Outcome::Failed } else { Outcome::Done })
     }
@@ -148,7 +151,7 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
     });
     specs.extend(registry::trials());
     if accuracy {
-        specs.extend(registry::with_kernels(KERNELS[1..].iter().copied()));
+        specs.extend(registry::with_kernels(kernels().skip(1)));
     }
     specs.iter().map(|spec| Ok(registry::choose(spec)?)).collect()
 }
@@ -156,13 +159,14 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
 /// Wrong answers of the suite's kernels, as for the kernel `auto`, and of structures with a test of their own.
 fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
     let mut all = ErrorRates::new();
-    let workloads = workload::make(scene, &session.rays, session.size, session.seed).made;
+    let workloads =
+        workload::make(scene, &session.subject.rays, session.subject.size, session.subject.seed).made;
     let mut examiner =
         Examiner::new(scene, &workload::batches(&workloads), JUDGED * workloads.len(), Tolerance::VISIBLE);
     let mut enter = |answerer: Answerer, rates: Vec<ErrorRate>| {
         all.extend(workloads.iter().zip(rates).map(|(w, rate)| ((answerer.clone(), w.id.to_string()), rate)));
     };
-    for kernel in KERNELS {
+    for kernel in kernels() {
         enter(
             Answerer::Kernel(kernel),
             match kernel {
@@ -171,8 +175,7 @@ fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
             },
         );
     }
-    // Those that serve one image only are left to the checks of their cells.
-    for choice in choices.iter().filter(|c| !c.entry.traits.built_in && c.entry.traits.lists) {
+    for choice in choices.iter().filter(|c| !c.entry.traits.built_in) {
         // Whoever can't be built, or panics, has said so where it was measured.
         let Ok(accel) = guarded_build(choice, scene, &Need::GENERAL) else { continue };
         if let Ok(wrong) = guard("tracing", || examiner.examine_structure(accel.as_ref())) {
@@ -185,7 +188,7 @@ fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
     all
 }
 
-fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
+fn in_words(record: &Record, constraints: &Constraints, ranking: &Recommendation) -> String {
     let mut text = String::new();
     let settings = |structure: &str| {
         record.structures.iter().find(|s| s.id == structure).map(|s| s.settings.clone()).unwrap_or_default()
@@ -195,13 +198,16 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
         "per ray",
         "build",
         "memory",
-        if wish.limits.counted == Counted::Identity { "wrong answers" } else { "visible errors" },
+        if constraints.limits.counted == Counted::Identity { "wrong answers" } else { "visible errors" },
     ]
     .map(str::to_owned);
     let mut lines = vec![head.to_vec()];
-    lines.extend(ranking.fitting.iter().zip(1..).map(|(c, place)| row(&format!("{place:>2}."), c, wish, "")));
-    lines
-        .extend(ranking.others.iter().map(|c| row(" – ", c, wish, &format!("  ({})", c.misfits.join("; ")))));
+    lines.extend(
+        ranking.fitting.iter().zip(1..).map(|(c, place)| row(&format!("{place:>2}."), c, constraints, "")),
+    );
+    lines.extend(
+        ranking.others.iter().map(|c| row(" – ", c, constraints, &format!("  ({})", c.misfits.join("; ")))),
+    );
     text.push_str(&in_columns(&lines, &[false, true, true, true, false]));
     text.push('\n');
     for (structure, reason) in &ranking.unfit {
@@ -211,7 +217,8 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
     let sets = record.ray_sets().join(" and ");
     let _ = match (&ranking.fitting[..], &ranking.others[..]) {
         ([best, rest @ ..], _) => {
-            let build = if wish.rays_per_build.is_some() { " with its share of the build" } else { "" };
+            let build =
+                if constraints.rays_per_build.is_some() { " with its share of the build" } else { "" };
             let gap = rest.first().map_or(String::new(), |next| {
                 let ratio = next.cost / best.cost;
                 let next = &next.structure;
@@ -221,8 +228,8 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
                     format!("; {next} takes {ratio:.2} times as long")
                 }
             });
-            let counted = wish.limits.counted;
-            let open = wish.limits.errors.zip(best.error);
+            let counted = constraints.limits.counted;
+            let open = constraints.limits.errors.zip(best.error);
             let open = open.map(|(limit, error)| (limit / 1e6, error.bound(counted)));
             let open = open.filter(|(limit, bound)| bound > limit).map_or(String::new(), |(_, bound)| {
                 format!(
@@ -252,10 +259,10 @@ fn in_words(record: &Record, wish: &Wish, ranking: &Recommendation) -> String {
 }
 
 /// A candidate's line in columns, with its place before and a remark behind.
-fn row(place: &str, c: &Candidate, wish: &Wish, remark: &str) -> Vec<String> {
+fn row(place: &str, c: &Candidate, constraints: &Constraints, remark: &str) -> Vec<String> {
     let error = match c.error {
         Some(ErrorRate::Proven) => "none".to_owned(),
-        Some(error) => match error.share(wish.limits.counted) {
+        Some(error) => match error.share(constraints.limits.counted) {
             0.0 => "none seen".to_owned(),
             share => recommend::per_million(share),
         },

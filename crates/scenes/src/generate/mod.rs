@@ -305,6 +305,17 @@ fn merge(mesh: &mut Mesh, other: Mesh) {
 mod tests {
     use super::*;
 
+    /// A count that is asked for makes the other number of triangles, the same for each seed and another mesh.
+    pub(super) fn assert_counts(make: fn(u32, u64) -> Mesh, counts: &[(u32, usize)]) {
+        for (count, made) in counts {
+            let mesh = make(*count, 3);
+            assert_eq!(mesh.triangles.len(), *made, "{count}");
+            assert!(mesh.positions.iter().all(|p| p.is_finite()));
+            assert_eq!(mesh, make(*count, 3));
+        }
+        assert_ne!(make(1000, 3), make(1000, 4));
+    }
+
     #[test]
     fn primitive_counts_are_the_published_ones() {
         for (database, sf, published) in [

@@ -57,17 +57,12 @@ fn flow(p: DVec3) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::assert_counts;
     use super::*;
 
     #[test]
     fn the_count_is_a_whole_number_of_strands() {
-        for (count, made) in [(1, 90), (90, 90), (134, 90), (135, 180), (100_000, 99_990)] {
-            let mesh = strands(count, 5);
-            assert_eq!(mesh.triangles.len(), made, "{count}");
-            assert!(mesh.positions.iter().all(|p| p.is_finite()));
-            assert_eq!(mesh, strands(count, 5));
-        }
-        assert_ne!(strands(1000, 5), strands(1000, 6));
+        assert_counts(strands, &[(1, 90), (90, 90), (134, 90), (135, 180), (100_000, 99_990)]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! walk of a ray through them that steps over empty bricks at once. A cell may be divided again into a
 //! brick of its own.
 
-use super::way::{Frame, Way, advance};
+use super::way::{ClippedSegment, Frame, advance};
 use accel::grid::Grid;
 use accel::{Aabb, Ray};
 use std::ops::Range;
@@ -96,13 +96,13 @@ impl Field {
 
     /// The part of a ray inside the grid.
     #[inline(always)]
-    pub fn clip(&self, ray: &Ray) -> Option<Way> {
+    pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
         self.frame.clip(ray)
     }
 
     /// Visits the occupied cells on a way up to s = `limit`, at most 1, in order.
     #[inline(always)]
-    pub fn walk<V: Visit>(&self, way: &Way, mut limit: f32, visit: &mut V) {
+    pub fn walk<V: Visit>(&self, way: &ClippedSegment, mut limit: f32, visit: &mut V) {
         let [bx, by, _] = self.bricks;
         let top = SHIFT * self.levels;
         let edge = top + SHIFT;

@@ -2,7 +2,7 @@
 
 use super::field::Visit;
 use super::order::GROUP;
-use super::way::Way;
+use super::way::ClippedSegment;
 use super::{Built, Cells, sort};
 use accel::parallel::for_each_chunk;
 use accel::{Count, Counters, Nearest, NoCount, Ray, RaySet};
@@ -27,18 +27,18 @@ impl Mailbox {
 }
 
 /// A ray on its way through the cells.
-struct Traveller<'a, S, B: Blocks, C, const ANY: bool> {
+struct TraversalState<'a, S, B: Blocks, C, const ANY: bool> {
     simd: S,
     cells: &'a Cells,
     blocks: &'a B,
     ray: B::One,
-    way: Way,
+    way: ClippedSegment,
     met: Mailbox,
     best: Nearest,
     count: &'a mut C,
 }
 
-impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Traveller<'_, S, B, C, ANY> {
+impl<S: Simd, B: Blocks, C: Count, const ANY: bool> TraversalState<'_, S, B, C, ANY> {
     /// Tests the objects of a group.
     #[inline(always)]
     fn test(&mut self, group: u32) {
@@ -54,7 +54,7 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Traveller<'_, S, B, C, ANY> 
     }
 }
 
-impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for Traveller<'_, S, B, C, ANY> {
+impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for TraversalState<'_, S, B, C, ANY> {
     #[inline(always)]
     fn cell(&mut self, number: usize) -> f32 {
         let before = self.best.t;
@@ -98,28 +98,28 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
         let Self { built, rays, found, count } = self;
         let Built { field, cells, blocks, .. } = built;
         for (ray, found) in rays.iter().zip(found) {
-            let mut traveller = Traveller::<_, _, _, ANY> {
+            let mut state = TraversalState::<_, _, _, ANY> {
                 simd,
                 cells,
                 blocks,
                 ray: blocks.one(ray),
-                way: Way::NOWHERE,
+                way: ClippedSegment::NOWHERE,
                 met: Mailbox([u32::MAX; 16]),
                 best: Nearest::new(ray.t_max),
                 count,
             };
             if built.apart {
-                traveller.test(0);
+                state.test(0);
             }
-            if !(ANY && traveller.best.object != Nearest::NONE)
+            if !(ANY && state.best.object != Nearest::NONE)
                 && let Some(way) = field.clip(ray)
             {
-                traveller.way = way;
-                let limit = way.limit(traveller.best.t).min(1.0);
-                field.walk(&way, limit, &mut traveller);
+                state.way = way;
+                let limit = way.limit(state.best.t).min(1.0);
+                field.walk(&way, limit, &mut state);
             }
-            blocks.resolve(&traveller.ray, &mut traveller.best);
-            *found = traveller.best;
+            blocks.resolve(&state.ray, &mut state.best);
+            *found = state.best;
         }
     }
 }

@@ -5,7 +5,7 @@ use accel::Ray;
 use accel::grid::Grid;
 use accel::tolerance::{INSET, LIMIT_S, LIMIT_T, PARALLEL, T_SLACK, TOUCH};
 
-/// Maps a scene's coordinates to the cells of a lattice.
+/// Maps a scene's coordinates to the cells of a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     low: [f64; 3],
@@ -20,7 +20,7 @@ pub(super) struct Frame {
 /// The points `start + s·delta` with s from 0 to 1, in cells, and where they meet the planes
 /// between slices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
+pub(super) struct ClippedSegment {
     start: [f32; 3],
     delta: [f32; 3],
     /// Plane p of an axis is met at s = p·scale + offset.
@@ -47,7 +47,7 @@ impl Frame {
 
     /// The part of a ray inside the grid and its own range of t, or `None` where there is none.
     #[inline(always)]
-    pub fn clip(&self, ray: &Ray) -> Option<Way> {
+    pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
         let origin = ray.origin.to_array().map(f64::from);
         let direction = ray.direction.to_array().map(f64::from);
         let mut t_start = f64::from(ray.t_min);
@@ -75,16 +75,7 @@ impl Frame {
         }
         let span = (t_end - t_start).max(0.0);
         let inverse_span = 1.0 / span;
-        let mut way = Way {
-            start: [0.0; 3],
-            delta: [0.0; 3],
-            scale: [0.0; 3],
-            offset: [f32::INFINITY; 3],
-            step: [1; 3],
-            forward: [1; 3],
-            t_start,
-            inverse_span,
-        };
+        let mut way = ClippedSegment { t_start, inverse_span, ..ClippedSegment::NOWHERE };
         for a in 0..3 {
             let n = f64::from(self.resolution[a]);
             let place = |t: f64| {
@@ -105,7 +96,7 @@ impl Frame {
     }
 }
 
-impl Way {
+impl ClippedSegment {
     /// A way of a ray that does not meet the grid.
     pub const NOWHERE: Self = Self {
         start: [0.0; 3],
@@ -159,7 +150,7 @@ impl Way {
 /// The slices beyond the planes met first, and where those are met. Planes met together are passed
 /// together: what lies in the cells between is registered on both sides, being within the grid's margin.
 #[inline(always)]
-pub(super) fn advance(way: &Way, slice: [u32; 3], planes: [f32; 3]) -> ([u32; 3], f32) {
+pub(super) fn advance(way: &ClippedSegment, slice: [u32; 3], planes: [f32; 3]) -> ([u32; 3], f32) {
     let exit = planes[0].min(planes[1]).min(planes[2]);
     let next = |a: usize| slice[a].wrapping_add(if planes[a] <= exit { way.step[a] } else { 0 });
     ([next(0), next(1), next(2)], exit)

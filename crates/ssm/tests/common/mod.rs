@@ -1,7 +1,8 @@
 //! Scenes, rays and the comparison with brute force.
 #![allow(dead_code)]
 
-use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Ray, RaySet, Scene, Vec3, View};
+pub use accel::testing::scene;
+use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Ray, RaySet, Scene, Vec3};
 use baselines::Brute;
 use primitives::KernelId;
 
@@ -18,11 +19,6 @@ impl Random {
     pub fn point(&mut self, scale: f32) -> Vec3 {
         Vec3::new(self.unit() - 0.5, self.unit() - 0.5, self.unit() - 0.5) * (2.0 * scale)
     }
-}
-
-pub fn scene(geometry: Geometry) -> Scene {
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
-    Scene { id: "test".into(), geometry, view }
 }
 
 pub fn mesh(corners: impl IntoIterator<Item = [Vec3; 3]>) -> Scene {

@@ -1,27 +1,9 @@
 use super::*;
 use crate::WrapperBuilder;
-use accel::{Aabb, Mesh, Projection, Vec3, View};
+use accel::testing::{Numbers, scene};
+use accel::{Aabb, Mesh, Projection, Vec3};
 use baselines::Brute;
 use primitives::KernelId;
-
-/// Numbers in [0, 1) from a fixed seed.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1 << 24) as f32
-    }
-
-    fn vec3(&mut self) -> Vec3 {
-        Vec3::new(self.next(), self.next(), self.next())
-    }
-}
-
-fn scene_of(geometry: Geometry) -> Scene {
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
-    Scene { id: "test".to_owned(), geometry, view }
-}
 
 fn small_triangles(count: u32) -> Scene {
     let mut numbers = Numbers(1);
@@ -33,7 +15,7 @@ fn small_triangles(count: u32) -> Scene {
         }
         mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
-    scene_of(Geometry::Triangles(mesh))
+    scene(Geometry::Triangles(mesh))
 }
 
 fn raster(rows: u32, cols: u32) -> Raster {
@@ -206,7 +188,7 @@ fn the_wrapper_s_footprint_is_a_twin_s_and_its_copies() {
 
 #[test]
 fn what_embree_does_not_serve_is_refused_with_a_reason() {
-    let boxes = scene_of(Geometry::Boxes(vec![Aabb { min: Vec3::ZERO, max: Vec3::ONE }]));
+    let boxes = scene(Geometry::Boxes(vec![Aabb { min: Vec3::ZERO, max: Vec3::ONE }]));
     let error = EmbreeBuilder::new(Variant::Plain).build(&boxes, &Need::GENERAL).err();
     assert_eq!(error.unwrap().to_string(), "embree does not serve boxes: Embree has triangles");
     let error = WrapperBuilder.build(&boxes, &Need::GENERAL).err();

@@ -1,26 +1,8 @@
 use super::*;
-use accel::{Aabb, Mesh, RaySet, Vec3, View};
+use accel::testing::{Numbers, scene};
+use accel::{Aabb, Mesh, RaySet, Vec3};
 use baselines::Brute;
 use primitives::KernelId;
-
-/// Numbers in [0, 1) from a fixed seed.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1 << 24) as f32
-    }
-
-    fn vec3(&mut self) -> Vec3 {
-        Vec3::new(self.next(), self.next(), self.next())
-    }
-}
-
-fn scene_of(geometry: Geometry) -> Scene {
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
-    Scene { id: "test".to_owned(), geometry, view }
-}
 
 fn triangles(count: u32, size: f32) -> Scene {
     let mut numbers = Numbers(1);
@@ -32,7 +14,7 @@ fn triangles(count: u32, size: f32) -> Scene {
         }
         mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
-    scene_of(Geometry::Triangles(mesh))
+    scene(Geometry::Triangles(mesh))
 }
 
 fn boxes(count: usize) -> Scene {
@@ -41,7 +23,7 @@ fn boxes(count: usize) -> Scene {
         let min = numbers.vec3();
         Aabb { min, max: min + numbers.vec3() * 0.1 }
     };
-    scene_of(Geometry::Boxes((0..count).map(&mut one).collect()))
+    scene(Geometry::Boxes((0..count).map(&mut one).collect()))
 }
 
 fn rays(count: usize) -> RaySet {
@@ -106,7 +88,7 @@ fn scenes_of_none_one_and_equal_triangles_are_built() {
     for builder in all_builders() {
         for count in [0, 1, 2, 100] {
             let mesh = Mesh { positions: positions.clone(), triangles: vec![[0, 1, 2]; count] };
-            let scene = scene_of(Geometry::Triangles(mesh));
+            let scene = scene(Geometry::Triangles(mesh));
             let built = builder.build(&scene, &Need::GENERAL).unwrap();
             assert_eq!(built.closest(&ray).is_some(), count > 0, "{builder:?} {count}");
             assert_eq!(built.occluded(&ray), count > 0);

@@ -6,20 +6,20 @@ use std::time::{Duration, Instant};
 
 /// Looked at between builds, samples and ray sets.
 #[derive(Clone, Debug)]
-pub struct Watch {
+pub struct Deadline {
     interrupted: Arc<AtomicBool>,
     started: Instant,
     most: Option<Duration>,
 }
 
-impl Default for Watch {
+impl Default for Deadline {
     fn default() -> Self {
         Self::new(Arc::default(), None)
     }
 }
 
-impl Watch {
-    /// A watch that starts now; `interrupted` is set from outside, `most` is the time for all.
+impl Deadline {
+    /// Time runs from now on; `interrupted` is set from outside, `most` is the time for all.
     pub fn new(interrupted: Arc<AtomicBool>, most: Option<Duration>) -> Self {
         Self { interrupted, started: Instant::now(), most }
     }
