@@ -185,8 +185,13 @@ fn left_out(out: &mut String, record: &Record) {
         let error = cell.outcome.reason().unwrap_or_default().to_owned();
         if !said.contains(&(&cell.scene, &cell.structure, error.clone())) {
             let [scene, rays, reason] = [&cell.scene, &cell.rays, &error].map(|text| escape(text));
-            let _ = writeln!(out, "- {} on {scene} {rays}: {reason}", escape(&cell.structure));
+            let _ = writeln!(out, "- {} on {scene} {rays}: {reason}", name(&cell.structure));
             said.push((&cell.scene, &cell.structure, error));
         }
     }
+}
+
+/// A structure's name as code, or as text where it holds what not every reader of Markdown leaves alone in code.
+fn name(name: &str) -> String {
+    if name.contains(['<', '>', '|']) { escape(name) } else { code(name) }
 }
