@@ -14,16 +14,19 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of these errors, which are sorted for it; all 0 if there is none.
+    /// Of these errors, which are put in another order for it; all 0 if there is none.
     pub fn of(errors: &mut [f64]) -> Self {
-        errors.sort_unstable_by(f64::total_cmp);
-        // The nearest rank, so that every figure is an error that occurred.
-        let at = |share: f64| {
-            let rank = (share * errors.len() as f64).ceil() as usize;
-            errors.get(rank.max(1) - 1).copied().unwrap_or(0.0)
-        };
-        Self { median: at(0.5), p99: at(0.99), largest: at(1.0) }
+        Self { median: at(errors, 0.5), p99: at(errors, 0.99), largest: at(errors, 1.0) }
     }
+}
+
+/// The error of the nearest rank, so that every figure is one that occurred.
+fn at(errors: &mut [f64], share: f64) -> f64 {
+    if errors.is_empty() {
+        return 0.0;
+    }
+    let rank = (share * errors.len() as f64).ceil() as usize;
+    *errors.select_nth_unstable_by(rank.max(1) - 1, f64::total_cmp).1
 }
 
 /// Errors in space of hits of the right surface.
