@@ -357,6 +357,33 @@ mod tests {
         assert_eq!((read.rows, read.curve), (trade.rows, trade.curve));
     }
 
+    /// Another object in the same place is nothing that shows.
+    #[test]
+    fn doubled_triangles_add_no_visible_error() {
+        let single = scenes::load(&"bumps-1k@offset=1e4,0,0".parse().unwrap()).unwrap();
+        let mut double = single.clone();
+        if let Geometry::Triangles(mesh) = &mut double.geometry {
+            mesh.triangles.extend_from_within(..);
+        }
+        let sets = workload::make(&single, &[RaysId::Edge, RaysId::Vertex, RaysId::Perspective], 20, 1).made;
+        for structure in ["bmssm", "ssm", "minmax"] {
+            for kernel in ["moller-trumbore", "baldwin-weber", "watertight", "double", "exact"] {
+                let choice = registry::parse(&format!("{structure}:kernel={kernel}")).unwrap();
+                let found = [&single, &double].map(|scene| {
+                    let judge = Judge::new(scene, Tolerance::VISIBLE);
+                    let accel = guarded_build(&choice, scene, &Need::GENERAL).unwrap();
+                    let mut sum = Tally::default();
+                    for set in &sets {
+                        sum.extend(Set::decide(&judge, set, &mut |_| {}).judge(&judge, accel.as_ref()));
+                    }
+                    sum.counts
+                });
+                assert_eq!(found[0].rays, 1200);
+                assert!(found[1].visible() <= found[0].visible(), "{structure}, {kernel}: {found:?}");
+            }
+        }
+    }
+
     #[test]
     fn records_of_old_are_read() {
         let folder = tempfile::tempdir().unwrap();
