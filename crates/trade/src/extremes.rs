@@ -95,7 +95,8 @@ fn cases(rays: usize, largest: usize, seed: u64) -> Vec<Make> {
     let mut all: Vec<Make> = Vec::new();
     let mut add = |make: Make| all.push(make);
     for (name, factor) in [
-        ("coordinates up to 3·10³⁸", 2e38f64),
+        ("coordinates up to 2.5·10³⁸, an extent beyond `f32`", 2e38f64),
+        ("coordinates up to 1.6·10³⁸, an extent within `f32`", 1.3e38),
         ("coordinates of 10³⁰", 1e30),
         ("coordinates of 10⁻³⁰", 1e-30),
         ("coordinates down to denormal, 10⁻³⁹", 1e-39),
@@ -254,8 +255,8 @@ fn aimed(scene: &Scene, radii: f64, rays: usize, seed: u64) -> Vec<Ray> {
         let eye = Vec3::from_array(eye);
         let towards = target - eye.as_dvec3();
         let size = towards.abs().max_element();
-        // Of ordinary length, so that it is the scene that is extreme.
-        let direction = (towards / size).as_vec3();
+        // The scale is shared between t and the direction, so that it is the scene that is extreme and neither of these.
+        let direction = (towards / size * size.sqrt()).as_vec3();
         if size > 0.0 && direction.is_finite() {
             list.push(Ray::new(eye, direction));
         }

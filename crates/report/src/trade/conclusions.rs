@@ -57,7 +57,7 @@ pub fn conclusions(trade: &Trade) -> Option<Conclusions> {
         "**Exact answers cost {exact_cost}** the time of `{PLAIN}` and leave {}.",
         errors(&exact)
     ));
-    all.summary.push(format!("`{PLAIN}`, the default, leaves {} on the same rays.", errors(&plain)));
+    all.summary.push(format!("`{PLAIN}`, the default, leaves {}.", errors(&plain)));
     let lossy = sums(&rows, |row| row.kernel == Intersector::BuiltIn(KernelId::Quantised));
     if lossy.rays > 0 {
         let bytes: Vec<String> = structures
@@ -146,16 +146,20 @@ fn of_curve(curve: &[Precise]) -> Vec<String> {
                 let mut rows = curve.iter().filter(of_sort).filter(|row| row.bits == Some(*bits)).peekable();
                 rows.peek().is_some() && rows.all(|row| row.errors.visible_per_million() <= level)
             };
-            let (all_of, scenes) = (bits.last().copied().unwrap_or(0), scenes.len());
+            let all_of = bits.last().copied().unwrap_or(0);
+            let scenes = match scenes.len() {
+                1 => "the one scene".to_owned(),
+                n => format!("all {n} scenes"),
+            };
             if all_of == 0 {
                 continue;
             }
             all.push(match bits.iter().find(|bits| keeps(bits)) {
                 Some(bits) => format!(
-                    "At most {level} visible errors in a million on all {scenes} scenes of the curve take {bits} bits a coordinate {words}."
+                    "At most {level} visible errors in a million on {scenes} of the curve take {bits} bits a coordinate {words}."
                 ),
                 None => format!(
-                    "No lattice {words} of up to {all_of} bits keeps to {level} visible errors in a million on all {scenes} scenes of the curve."
+                    "No lattice {words} of up to {all_of} bits keeps to {level} visible errors in a million on {scenes} of the curve."
                 ),
             });
         }
@@ -184,14 +188,19 @@ fn errors(counts: &Counts) -> String {
     if counts.visible() + counts.swapped == 0 {
         return format!("no error in {rays} rays (at most {high} in a million, 95 %)");
     }
+    let swapped = match counts.swapped {
+        0 => String::new(),
+        swapped => format!(" and {} swapped objects in a million", million(swapped)),
+    };
+    if counts.visible() == 0 {
+        return format!("no visible error (at most {high} in a million, 95 %){swapped}, in {rays} rays");
+    }
     format!(
-        "{} visible errors in a million ({} holes, {} phantoms, {} displaced; at most {high}, 95 %) and {} swapped objects, in {rays} \
-         rays",
+        "{} visible errors in a million ({} holes, {} phantoms, {} displaced; at most {high}, 95 %){swapped}, in {rays} rays",
         million(counts.visible()),
         million(counts.holes),
         million(counts.phantoms),
         million(counts.displaced),
-        million(counts.swapped)
     )
 }
 
@@ -284,4 +293,25 @@ fn table(trade: &Trade, rows: &[&Row], structures: &[&str]) -> Table {
         }
     }
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_seen_is_said_with_its_bound() {
+        let none = Counts { rays: 1_000_000, ..Counts::default() };
+        assert_eq!(errors(&none), "no error in 1,000,000 rays (at most 3 in a million, 95 %)");
+        let swapped = Counts { swapped: 7, ..none };
+        assert_eq!(
+            errors(&swapped),
+            "no visible error (at most 3 in a million, 95 %) and 7 swapped objects in a million, in 1,000,000 rays"
+        );
+        let holes = Counts { holes: 2, phantoms: 1, ..none };
+        assert!(
+            errors(&holes)
+                .starts_with("3 visible errors in a million (2 holes, 1 phantoms, 0 displaced; at most 8.8")
+        );
+    }
 }

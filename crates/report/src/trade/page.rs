@@ -96,6 +96,11 @@ pub fn extremes(trade: &Trade) -> String {
             units::count(left_out)
         );
         section(&mut out, "Extremes", &note, &table::extremes(&trade.extremes));
+        for (extreme, answer) in trade.extremes.iter().flat_map(|e| e.answers.iter().map(move |a| (e, a))) {
+            if let Err(reason) = &answer.found {
+                let _ = writeln!(out, "- Refused: {}: {}", escape(&extreme.name), escape(reason));
+            }
+        }
     }
     out
 }
