@@ -95,8 +95,8 @@ fn cases(rays: usize, largest: usize, seed: u64) -> Vec<Make> {
     let mut all: Vec<Make> = Vec::new();
     let mut add = |make: Make| all.push(make);
     for (name, factor) in [
-        ("coordinates up to 2.5·10³⁸, an extent beyond `f32`", 2e38f64),
-        ("coordinates up to 1.6·10³⁸, an extent within `f32`", 1.3e38),
+        ("coordinates up to 2.5·10³⁸, an extent beyond single precision", 2e38f64),
+        ("coordinates up to 1.6·10³⁸, an extent within it", 1.3e38),
         ("coordinates of 10³⁰", 1e30),
         ("coordinates of 10⁻³⁰", 1e-30),
         ("coordinates down to denormal, 10⁻³⁹", 1e-39),

@@ -129,7 +129,8 @@ impl Trade {
     }
 
     fn write_record(&self, trade: &trade::Trade) -> Result<(), Error> {
-        let json = serde_json::to_string_pretty(trade).map_err(io::Error::other);
+        // On one line: indented it would be five times as long.
+        let json = serde_json::to_string(trade).map_err(io::Error::other);
         self.write("trade.json", &json.map_err(|error| Error::io("trade.json", error))?)
     }
 

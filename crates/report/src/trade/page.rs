@@ -101,6 +101,7 @@ pub fn extremes(trade: &Trade) -> String {
                 let _ = writeln!(out, "- Refused: {}: {}", escape(&extreme.name), escape(reason));
             }
         }
+        out.push('\n');
     }
     out
 }
