@@ -53,7 +53,9 @@ pub fn page(trade: &Trade) -> String {
             &table::curve(&trade.curve),
         );
     }
-    out.push_str(&extremes(trade));
+    if !trade.extremes.is_empty() {
+        let _ = writeln!(out, "## Extremes\n\n{}\n", extremes(trade));
+    }
     if !trade.leaving.is_empty() {
         section(
             &mut out,
@@ -86,7 +88,7 @@ fn kinds(trade: &Trade) -> String {
     )
 }
 
-/// The table of extremes, with its heading; empty where the record has none.
+/// The table of extremes; empty where the record has none.
 pub fn extremes(trade: &Trade) -> String {
     let mut out = String::new();
     if !trade.extremes.is_empty() {
@@ -95,13 +97,12 @@ pub fn extremes(trade: &Trade) -> String {
             "Holes / phantoms of so many rays. Left out: {} rays whose true t is not zero and below the least normal `f32`.",
             units::count(left_out)
         );
-        section(&mut out, "Extremes", &note, &table::extremes(&trade.extremes));
+        let _ = writeln!(out, "{note}\n\n{}", table::extremes(&trade.extremes).markdown());
         for (extreme, answer) in trade.extremes.iter().flat_map(|e| e.answers.iter().map(move |a| (e, a))) {
             if let Err(reason) = &answer.found {
                 let _ = writeln!(out, "- Refused: {}: {}", escape(&extreme.name), escape(reason));
             }
         }
-        out.push('\n');
     }
     out
 }
