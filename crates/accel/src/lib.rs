@@ -32,7 +32,7 @@ pub use footprint::{Footprint, Group, Part, vec_bytes};
 pub use glam::Vec3;
 pub use input::{InputError, Position};
 pub use memory::{available_memory, concatenated, filled};
-pub use objects::Objects;
+pub use objects::{Bounds, Objects};
 pub use ray::{Hit, Nearest, Ray, RayError, Surface};
 pub use rayset::{Common, Projection, Raster, RaySet};
 pub use scene::{Corners, Geometry, Mesh, MeshRef, Scene, View};

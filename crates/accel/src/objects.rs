@@ -4,6 +4,35 @@
 use crate::tolerance::T_SLACK;
 use crate::{Aabb, Nearest, Ray, Surface};
 
+/// The boxes of objects: all that most of a build asks for. Every [`Objects`] have them.
+pub trait Bounds: Send + Sync {
+    /// How many there are.
+    fn len(&self) -> usize;
+
+    /// Whether there are none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// [`Objects::bounds`]
+    ///
+    /// # Panics
+    /// If there is no such object.
+    fn bounds(&self, id: u32) -> Aabb;
+}
+
+impl<O: Objects> Bounds for O {
+    #[inline(always)]
+    fn len(&self) -> usize {
+        Objects::len(self)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, id: u32) -> Aabb {
+        Objects::bounds(self, id)
+    }
+}
+
 /// The objects of a scene, of any kind: a structure needs their boxes and a detail test
 /// (Skala 1993, §1, §7).
 ///

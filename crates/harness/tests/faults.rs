@@ -110,6 +110,12 @@ impl<'s> Objects for Rounded<'s> {
 impl<'s> PackedObjects for Rounded<'s> {
     type Blocks = <Triangles<'s, Watertight> as PackedObjects>::Blocks;
 
+    type Shape = Self;
+
+    fn shape(&self) -> Self {
+        *self
+    }
+
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         self.triangles.blocks(order)
     }

@@ -2,7 +2,7 @@
 
 use crate::packet::{NearestPacket, Packet, Pairs};
 use crate::simd::{ROW, Row, Simd};
-use accel::{Common, Nearest, Objects, Ray};
+use accel::{Bounds, Common, Nearest, Objects, Ray};
 
 /// Objects in a block: one bit each of a 64-bit word.
 pub const BLOCK: usize = 64;
@@ -14,6 +14,13 @@ pub const EMPTY_SLOT: u32 = u32::MAX;
 pub trait PackedObjects: Objects + Copy {
     /// The objects reordered and packed by 64.
     type Blocks: Blocks;
+
+    /// Their boxes, of the same type wherever boxes come about in the same way: what asks for nothing else is compiled
+    /// once for all of these.
+    type Shape: Bounds + Copy;
+
+    /// The boxes.
+    fn shape(&self) -> Self::Shape;
 
     /// Copies the objects into blocks: slot i holds object `order[i]`, or nothing for [`EMPTY_SLOT`].
     fn blocks(&self, order: &[u32]) -> Self::Blocks;

@@ -43,6 +43,11 @@ impl Objects for Boxes<'_> {
 
 impl PackedObjects for Boxes<'_> {
     type Blocks = OneByOne<Self>;
+    type Shape = Self;
+
+    fn shape(&self) -> Self {
+        *self
+    }
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         OneByOne::new(*self, order)

@@ -62,6 +62,11 @@ impl<O: Objects> Objects for Guarded<'_, O> {
 
 impl<O: Objects> PackedObjects for Guarded<'_, O> {
     type Blocks = OneByOne<Self>;
+    type Shape = Self;
+
+    fn shape(&self) -> Self {
+        *self
+    }
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         OneByOne::new(*self, order)

@@ -6,8 +6,8 @@ use crate::settings::Settings;
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{
-    Accel, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, Need, NoCount, Objects, Ray,
-    RaySet, Scene, for_each_ray,
+    Accel, Bounds, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, Need, NoCount, Objects,
+    Ray, RaySet, Scene, for_each_ray,
 };
 use lanes::{PackedObjects, Simd, Task};
 use primitives::WithObjects;
@@ -61,9 +61,9 @@ impl<'s> WithObjects<'s> for Build {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         if objects.len() <= usize::from(u16::MAX) {
-            Ok(Box::new(Built::<O, u16>::new(objects, &self.0)?))
+            Ok(Box::new(Built::<O, u16>::new(objects, &objects.shape(), &self.0)?))
         } else {
-            Ok(Box::new(Built::<O, u32>::new(objects, &self.0)?))
+            Ok(Box::new(Built::<O, u32>::new(objects, &objects.shape(), &self.0)?))
         }
     }
 }
@@ -97,15 +97,20 @@ impl Id for u32 {
 struct Built<O, I> {
     objects: O,
     settings: Settings,
+    cells: Cells<I>,
+}
+
+/// The lists of the cells of a grid.
+struct Cells<I> {
     grid: Grid,
     counters: Box<[I]>,
     pointers: Box<[u32]>,
     ids: Box<[I]>,
 }
 
-impl<O: Objects, I: Id> Built<O, I> {
-    fn new(objects: O, settings: &Settings) -> Result<Self, BuildError> {
-        let bounds = crate::resolution::bounds(&objects, |_| true);
+impl<I: Id> Cells<I> {
+    fn new<B: Bounds>(objects: &B, settings: &Settings) -> Result<Self, BuildError> {
+        let bounds = crate::resolution::bounds(objects, |_| true);
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, objects.len())?;
         let limit = Limit::of(ID, settings);
         let cells = limit.cells(u128::from(grid.cells()), (size_of::<I>() + 4) as u128)?;
@@ -127,25 +132,31 @@ impl<O: Objects, I: Id> Built<O, I> {
         let mut pointers = lists.offsets;
         pointers.pop();
         let pointers = pointers.into_boxed_slice();
-        Ok(Self { objects, settings: *settings, grid, counters, pointers, ids })
+        Ok(Self { grid, counters, pointers, ids })
+    }
+}
+
+impl<O: Objects, I: Id> Built<O, I> {
+    fn new(objects: O, shape: &impl Bounds, settings: &Settings) -> Result<Self, BuildError> {
+        Ok(Self { objects, settings: *settings, cells: Cells::new(shape, settings)? })
     }
 
     #[inline(always)]
     fn nearest<C: Count, const ANY: bool>(&self, ray: &Ray, count: &mut C) -> Nearest {
         let mut best = Nearest::new(ray.t_max);
-        let Some(segment) = self.grid.clip(ray) else {
+        let Some(segment) = self.cells.grid.clip(ray) else {
             return best;
         };
         let mut tested = Mailbox::default();
         let mut limit = f32::INFINITY;
-        for cell in Walk::new(&self.grid, &segment) {
+        for cell in Walk::new(&self.cells.grid, &segment) {
             if cell.enter > limit {
                 break;
             }
             count.cells(1);
-            let index = self.grid.index(cell.slice);
-            let first = self.pointers[index] as usize;
-            for id in &self.ids[first..first + self.counters[index].widen() as usize] {
+            let index = self.cells.grid.index(cell.slice);
+            let first = self.cells.pointers[index] as usize;
+            for id in &self.cells.ids[first..first + self.cells.counters[index].widen() as usize] {
                 let id = id.widen();
                 count.candidates(1);
                 if tested.contains_or_insert(id) {
@@ -210,13 +221,13 @@ impl<O: Objects, I: Id> Accel for Built<O, I> {
 
     fn footprint(&self) -> Footprint {
         Footprint::default()
-            .structure("counters", size_of_val(&*self.counters))
-            .structure("pointers", size_of_val(&*self.pointers))
-            .structure("ids", size_of_val(&*self.ids))
+            .structure("counters", size_of_val(&*self.cells.counters))
+            .structure("pointers", size_of_val(&*self.cells.pointers))
+            .structure("ids", size_of_val(&*self.cells.ids))
     }
 
     fn plan(&self) -> String {
-        let [x, y, z] = self.grid.resolution();
+        let [x, y, z] = self.cells.grid.resolution();
         format!("{x}x{y}x{z} cells by {}, ids of {} bytes", self.settings.resolution, size_of::<I>())
     }
 

@@ -2,7 +2,7 @@
 
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
-use accel::{Aabb, BuildError, Objects, Vec3};
+use accel::{Aabb, Bounds, BuildError, Vec3};
 use std::fmt;
 
 /// The rule by which a grid's resolution is chosen.
@@ -73,7 +73,7 @@ fn by_density(bounds: &Aabb, cells: f64) -> [u32; 3] {
 }
 
 /// The box of the padded boxes of those objects that are wanted; some box where there are none.
-pub(crate) fn bounds<O: Objects>(objects: &O, wanted: impl Fn(u32) -> bool + Sync) -> Aabb {
+pub(crate) fn bounds<B: Bounds>(objects: &B, wanted: impl Fn(u32) -> bool + Sync) -> Aabb {
     let each = (0..objects.len() as u32).into_par_iter().with_min_len(1 << 12);
     let each = each.filter(|id| wanted(*id)).map(|id| objects.bounds(id));
     let all = each.reduce(|| Aabb::EMPTY, |a, b| a.union(b));

@@ -2,7 +2,7 @@
 
 use super::Axis;
 use crate::image_space::ImageSpace;
-use accel::{Objects, Raster};
+use accel::{Bounds, Raster};
 
 /// The bit maps of a raster. Every primary ray is the meet of a row plane and a column plane, so
 /// ⁱR & ʲS are its candidates; there are no slices in depth, "not convenient for primary ray
@@ -29,7 +29,7 @@ pub struct Coverage {
 
 impl ImageMaps {
     /// Maps the boxes of `objects`. An object behind the eye has no bit.
-    pub fn new<O: Objects>(objects: &O, raster: Raster) -> Self {
+    pub fn new<B: Bounds>(objects: &B, raster: Raster) -> Self {
         let space = ImageSpace::new(&raster);
         let mut rows = Axis::new(raster.rows as usize, objects.len());
         let mut cols = Axis::new(raster.cols as usize, objects.len());

@@ -20,7 +20,7 @@ pub use settings::{Loop, Settings};
 pub use space::SpaceMaps;
 
 use accel::grid::Grid;
-use accel::{Accel, BuildError, Builder, Need, Objects, Scene};
+use accel::{Accel, Bounds, BuildError, Builder, Need, Scene};
 use detail::{Appendix, Detail, Words};
 use lanes::PackedObjects;
 use primitives::WithObjects;
@@ -67,45 +67,48 @@ impl<'s> WithObjects<'s> for Build {
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         let Self(settings, need) = self;
         let order: Vec<u32> = (0..objects.len() as u32).collect();
-        match settings.walk {
-            Loop::Appendix => build(objects, |o| Appendix(*o), &settings, &need),
-            Loop::Words => build(objects, |o| Words(o.blocks(&order)), &settings, &need),
-        }
+        let maps = Maps::new(&objects.shape(), &settings, &need)?;
+        Ok(match settings.walk {
+            Loop::Appendix => Box::new(maps.with(Appendix(objects), &settings, &need)),
+            Loop::Words => Box::new(maps.with(Words(objects.blocks(&order)), &settings, &need)),
+        })
     }
 }
 
-fn build<'s, O: Objects + 's, D: Detail + 's>(
-    objects: O,
-    detail: impl FnOnce(&O) -> D,
-    settings: &Settings,
-    need: &Need,
-) -> Result<Box<dyn Accel + 's>, BuildError> {
-    settings.resolution.check().map_err(|problem| setting("resolution", problem))?;
-    let grid = (need.general && !objects.is_empty())
-        .then(|| {
-            let bounds = space::bounds_of(&objects);
-            Grid::new(bounds, settings.resolution.slices(&objects, &bounds))
-        })
-        .transpose()
-        .map_err(|error| setting("resolution", error.to_string()))?;
-    let bytes = need.raster.map_or(0, |raster| ImageMaps::bytes_of(&raster, objects.len()))
-        + grid.map_or(0, |grid| SpaceMaps::bytes_of(grid.resolution(), objects.len()));
-    let limit = settings.memory.unwrap_or_else(accel::available_memory);
-    if bytes > limit {
-        return Err(BuildError::TooLarge { structure: ID.into(), bytes, limit });
+/// The maps that a need asks for.
+struct Maps {
+    objects: usize,
+    image: Option<ImageMaps>,
+    space: Option<SpaceMaps>,
+}
+
+impl Maps {
+    fn new<B: Bounds>(objects: &B, settings: &Settings, need: &Need) -> Result<Self, BuildError> {
+        settings.resolution.check().map_err(|problem| setting("resolution", problem))?;
+        let grid = (need.general && !objects.is_empty())
+            .then(|| {
+                let bounds = space::bounds_of(objects);
+                Grid::new(bounds, settings.resolution.slices(objects, &bounds))
+            })
+            .transpose()
+            .map_err(|error| setting("resolution", error.to_string()))?;
+        let bytes = need.raster.map_or(0, |raster| ImageMaps::bytes_of(&raster, objects.len()))
+            + grid.map_or(0, |grid| SpaceMaps::bytes_of(grid.resolution(), objects.len()));
+        let limit = settings.memory.unwrap_or_else(accel::available_memory);
+        if bytes > limit {
+            return Err(BuildError::TooLarge { structure: ID.into(), bytes, limit });
+        }
+        let image = need.raster.map(|raster| ImageMaps::new(objects, raster));
+        let space = grid.map(|grid| SpaceMaps::new(objects, grid));
+        Ok(Self { objects: objects.len(), image, space })
     }
-    let image = need.raster.map(|raster| ImageMaps::new(&objects, raster));
-    let space = grid.map(|grid| SpaceMaps::new(&objects, grid));
-    Ok(Box::new(Built {
-        detail: detail(&objects),
-        objects: objects.len(),
-        simd: settings.simd,
-        mailbox: settings.mailbox,
-        general: need.general,
-        plan: plan(image.as_ref(), space.as_ref()),
-        image,
-        space,
-    }))
+
+    fn with<D: Detail>(self, detail: D, settings: &Settings, need: &Need) -> Built<D> {
+        let Self { objects, image, space } = self;
+        let plan = plan(image.as_ref(), space.as_ref());
+        let (simd, mailbox, general) = (settings.simd, settings.mailbox, need.general);
+        Built { detail, image, space, objects, simd, mailbox, general, plan }
+    }
 }
 
 fn plan(image: Option<&ImageMaps>, space: Option<&SpaceMaps>) -> String {

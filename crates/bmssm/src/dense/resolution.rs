@@ -1,7 +1,7 @@
 //! How many slices there are on each axis.
 
 use accel::grid::Grid;
-use accel::{Aabb, Objects};
+use accel::{Aabb, Bounds};
 use std::fmt;
 
 /// The rule by which N is chosen for the maps of space.
@@ -60,7 +60,7 @@ impl Resolution {
     }
 
     /// Slices along each axis for `objects` in `bounds`.
-    pub fn slices<O: Objects>(self, objects: &O, bounds: &Aabb) -> [u32; 3] {
+    pub fn slices<B: Bounds>(self, objects: &B, bounds: &Aabb) -> [u32; 3] {
         let extent = [0, 1, 2].map(|a| f64::from(bounds.max[a]) - f64::from(bounds.min[a]));
         let longest = extent.into_iter().fold(0.0, f64::max);
         let flat = |a: usize| extent[a] <= longest * FLAT;
@@ -79,7 +79,7 @@ impl Resolution {
 
 /// The N with the least cost of a ray through the middle of a cube: about 1.5·N cells with p/64 words each,
 /// and a test for every object whose box, widened by a cell, it meets.
-fn cheapest<O: Objects>(objects: &O, longest: f64) -> u32 {
+fn cheapest<B: Bounds>(objects: &B, longest: f64) -> u32 {
     let mean_size = {
         let size = |id| f64::from(objects.bounds(id).extent().element_sum()) / 3.0;
         let sum: f64 = (0..objects.len() as u32).map(size).sum();

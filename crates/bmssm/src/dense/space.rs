@@ -2,7 +2,7 @@
 
 use super::Axis;
 use accel::grid::Grid;
-use accel::{Aabb, Objects};
+use accel::{Aabb, Bounds};
 
 /// The bit maps of a grid: ⁱR & ʲS & ᵏT are the candidates of cell (i, j, k).
 #[derive(Clone, Debug)]
@@ -15,7 +15,7 @@ pub struct SpaceMaps {
 
 impl SpaceMaps {
     /// Maps the boxes of `objects`, which must lie in the grid's bounds.
-    pub fn new<O: Objects>(objects: &O, grid: Grid) -> Self {
+    pub fn new<B: Bounds>(objects: &B, grid: Grid) -> Self {
         let mut axes = grid.resolution().map(|n| Axis::new(n as usize, objects.len()));
         for id in 0..objects.len() as u32 {
             let bounds = objects.bounds(id);
@@ -60,7 +60,7 @@ impl SpaceMaps {
 }
 
 /// The box of all objects' boxes.
-pub(super) fn bounds_of<O: Objects>(objects: &O) -> Aabb {
+pub(super) fn bounds_of<B: Bounds>(objects: &B) -> Aabb {
     (0..objects.len() as u32).fold(Aabb::EMPTY, |all, id| all.union(objects.bounds(id)))
 }
 

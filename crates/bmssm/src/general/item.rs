@@ -4,7 +4,7 @@ use super::unit_box::UnitBox;
 use accel::grid::Grid;
 use accel::parallel::map_chunks;
 use accel::parallel::prelude::*;
-use accel::{Aabb, Objects, Vec3, filled, morton};
+use accel::{Aabb, Bounds, Vec3, filled, morton};
 use lanes::{Level, Simd, Task};
 
 /// A box, the number of what is in it, and how many objects that is.
@@ -149,7 +149,7 @@ const CHUNK: usize = 1 << 12;
 
 impl Scene {
     /// Of all objects.
-    pub fn new<O: Objects>(objects: &O, simd: Level) -> Self {
+    pub fn new<B: Bounds>(objects: &B, simd: Level) -> Self {
         let mut items = filled(Item { low: [0.0; 4], high: [0.0; 4] }, objects.len());
         let found = map_chunks(&mut items, CHUNK, &|chunk, items| {
             simd.run(Found { objects, first: chunk * CHUNK, items })
@@ -181,7 +181,7 @@ struct Found<'a, O> {
     items: &'a mut [Item],
 }
 
-impl<O: Objects> Task for Found<'_, O> {
+impl<B: Bounds> Task for Found<'_, B> {
     type Out = (Extremes, Spread);
 
     #[inline(always)]

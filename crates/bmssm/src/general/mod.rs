@@ -78,7 +78,7 @@ impl<O: PackedObjects> General<O> {
     /// Builds the maps of all `objects`, in the current rayon pool.
     pub fn new(objects: &O, settings: Settings) -> Self {
         let simd = settings.simd;
-        let Scene { frame, extent, items, keys } = Scene::new(objects, simd);
+        let Scene { frame, extent, items, keys } = Scene::new(&objects.shape(), simd);
         let shape = Shape { extent };
         let Order { slots, maps, blocks } = Order::new(&shape, items, keys, settings);
         let nodes = tree::over(&shape, blocks, simd);

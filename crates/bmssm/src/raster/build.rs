@@ -21,7 +21,7 @@ struct Part {
 impl<O: PackedObjects> RasterMaps<O> {
     /// Builds the maps of `raster` in the current rayon pool.
     pub fn build(objects: O, raster: &Raster, settings: Settings) -> Self {
-        let shown = shown(objects, raster, settings.simd);
+        let shown = shown(objects.shape(), raster, settings.simd);
         let count = shown.len();
         let Laid { blocks, words, ids } = laid(shown, raster, &settings);
         let tiles = |pixels: u32| pixels.div_ceil(THICKNESS).div_ceil(settings.tile);

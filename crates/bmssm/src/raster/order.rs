@@ -5,7 +5,7 @@ use crate::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
 use accel::parallel::map_tasks;
 use accel::parallel::prelude::*;
-use accel::{Aabb, Objects, Projection, Raster, concatenated};
+use accel::{Aabb, Bounds, Projection, Raster, concatenated};
 use lanes::{Level, Simd, Task};
 
 /// Where the image shows an object.
@@ -28,7 +28,7 @@ const LANES: usize = 8;
 const CHUNK: usize = 1 << 14;
 
 /// The objects that both a row plane and a column plane touch.
-pub(super) fn shown<O: Objects + Copy>(objects: O, raster: &Raster, simd: Level) -> Vec<Shown> {
+pub(super) fn shown<B: Bounds + Copy>(objects: B, raster: &Raster, simd: Level) -> Vec<Shown> {
     let space = ImageSpace::new(raster);
     let of = |first: usize| simd.run(Projected { objects, space: &space, first });
     if objects.len() <= CHUNK {
@@ -44,7 +44,7 @@ struct Projected<'a, O> {
     first: usize,
 }
 
-impl<O: Objects> Task for Projected<'_, O> {
+impl<B: Bounds> Task for Projected<'_, B> {
     type Out = Vec<Shown>;
 
     #[inline(always)]

@@ -109,7 +109,7 @@ impl<K: Paired> TriangleBlocks<'_, K> {
     /// `LANES` rays, each against the triangle in its own lane, with the corners as the mesh holds them.
     #[inline(always)]
     fn each_in_place<S: Simd>(&self, s: S, ids: &[u32; ROW], rays: &Packet<S>, t_max: S::F) -> Lanes<S> {
-        let (mesh, frame) = (&self.triangles.mesh, &self.triangles.frame);
+        let (mesh, frame) = (&self.triangles.shape.mesh, &self.triangles.frame);
         let mut quads = [[[0.0; 4]; ROW]; 3];
         for (lane, id) in ids.iter().enumerate().take(S::LANES) {
             for (quads, corner) in quads.iter_mut().zip(mesh.corners(*id as usize)) {

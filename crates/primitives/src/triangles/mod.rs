@@ -1,5 +1,6 @@
 //! Triangles as objects, with the kernel as a parameter.
 
+mod bounds;
 mod deferred;
 mod frame;
 mod immediate;
@@ -17,6 +18,7 @@ use crate::Kernel;
 use crate::kernel::{Packed, Preparation, Prepared, Storage};
 use accel::Objects;
 use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
+use bounds::TriangleBounds;
 use frame::Frame;
 use lanes::packet::{NearestPacket, Packet, Pairs, Vec3Lanes};
 use lanes::{Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared};
@@ -27,9 +29,8 @@ use std::marker::PhantomData;
 /// The triangles of a mesh, tested by kernel `K`.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangles<'s, K: Kernel> {
-    mesh: MeshRef<'s>,
+    shape: TriangleBounds<'s, K::Storage>,
     frame: Frame,
-    storage: K::Storage,
     kernel: PhantomData<K>,
 }
 
@@ -58,13 +59,15 @@ impl<'s, K: Kernel> Triangles<'s, K> {
         if !bounds.is_empty() {
             bounds = Aabb { min: storage.place(bounds.min), max: storage.place(bounds.max) };
         }
-        Self { mesh, frame: Frame::of(&bounds, K::NORMALISED), storage, kernel: PhantomData }
+        let frame = Frame::of(&bounds, K::NORMALISED);
+        let shape = TriangleBounds { mesh, storage, pad: frame.pad };
+        Self { shape, frame, kernel: PhantomData }
     }
 
     /// The corners of a triangle, where the kernel sees them.
     #[inline]
     fn corners(&self, id: u32) -> Corners {
-        self.mesh.corners(id as usize).map(|corner| self.storage.place(corner))
+        self.shape.corners(id)
     }
 
     /// Whether `a` comes before `b`, both hit at the same reported t.
@@ -76,13 +79,12 @@ impl<'s, K: Kernel> Triangles<'s, K> {
 
 impl<'s, K: Kernel> Objects for Triangles<'s, K> {
     fn len(&self) -> usize {
-        self.mesh.triangles.len()
+        accel::Bounds::len(&self.shape)
     }
 
     #[inline(always)]
     fn bounds(&self, id: u32) -> Aabb {
-        let [a, b, c] = self.corners(id);
-        Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }.padded(self.frame.pad)
+        accel::Bounds::bounds(&self.shape, id)
     }
 
     #[inline]
@@ -103,6 +105,11 @@ impl<'s, K: Kernel> Objects for Triangles<'s, K> {
 
 impl<'s, K: TriangleKernel> PackedObjects for Triangles<'s, K> {
     type Blocks = TriangleBlocks<'s, K>;
+    type Shape = TriangleBounds<'s, K::Storage>;
+
+    fn shape(&self) -> Self::Shape {
+        self.shape
+    }
 
     fn blocks(&self, order: &[u32]) -> Self::Blocks {
         pack::blocks(self, order)
@@ -153,9 +160,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     /// The triangles in `LANES` slots from `slot` on.
     #[inline(always)]
     fn unpacked<'a, S: Simd>(&'a self, s: S, slot: usize, rows: &'a mut [Row]) -> Packed<'a> {
-        let (lane, Triangles { storage, frame, .. }) = (slot % ROW, &self.triangles);
+        let (lane, Triangles { shape, frame, .. }) = (slot % ROW, &self.triangles);
         let at = lane / S::LANES * S::LANES;
-        Packed::new(storage.rows(s, self.units(slot), at, frame.scale, rows), lane)
+        Packed::new(shape.storage.rows(s, self.units(slot), at, frame.scale, rows), lane)
     }
 
     /// The corners of the triangle in a slot, or others with the same box.

@@ -17,14 +17,14 @@ const TASK: usize = 512;
 /// Slot i holds triangle `order[i]`, or nothing for [`EMPTY_SLOT`].
 pub(super) fn blocks<'s, K: Kernel>(triangles: &Triangles<'s, K>, order: &[u32]) -> TriangleBlocks<'s, K> {
     let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
-    let each = K::Storage::units::<K>();
+    let (shape, scale, each) = (triangles.shape, triangles.frame.scale, K::Storage::units::<K>());
     let mut units = filled(K::Storage::EMPTY, groups * each);
     for_each_chunk(&mut units, TASK * each, &|task, units| {
         for (group, units) in (task * TASK..).zip(units.chunks_exact_mut(each)) {
-            ask_ahead(triangles.mesh, order, group);
+            ask_ahead(shape.mesh, order, group);
             for (lane, id) in taken(order, group) {
-                let corners = triangles.mesh.corners(id as usize);
-                triangles.storage.pack::<K>(&corners, triangles.frame.scale, units, lane);
+                let corners = shape.mesh.corners(id as usize);
+                shape.storage.pack::<K>(&corners, scale, units, lane);
             }
         }
     });

@@ -7,7 +7,7 @@ use super::order::GROUP;
 use super::{BRICK_BYTES, Cells};
 use crate::register::Limit;
 use accel::parallel::prelude::*;
-use accel::{BuildError, Objects};
+use accel::{Bounds, BuildError};
 use lanes::EMPTY_SLOT;
 use std::ops::Range;
 
@@ -31,10 +31,10 @@ struct Tree {
 ///
 /// # Errors
 /// [`BuildError::TooLarge`] if the result would exceed the limit.
-pub(super) fn divide<O: Objects>(
+pub(super) fn divide<B: Bounds>(
     cells: Cells,
     field: &mut Field,
-    objects: &O,
+    objects: &B,
     order: &[u32],
     gain: f32,
     limit: Limit,
@@ -69,10 +69,10 @@ pub(super) fn divide<O: Objects>(
 }
 
 /// The objects of these groups that touch the cell at `place`.
-fn members<O: Objects>(
+fn members<B: Bounds>(
     groups: &[u32],
     field: &Field,
-    objects: &O,
+    objects: &B,
     order: &[u32],
     place: [u32; 3],
 ) -> Vec<Member> {

@@ -12,7 +12,9 @@ use crate::resolution::Resolution;
 use crate::settings::Settings;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
-use accel::{Accel, BuildError, Builder, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes};
+use accel::{
+    Accel, Bounds, BuildError, Builder, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes,
+};
 use field::{BRICK, Field};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 use order::{GROUP, Order};
@@ -125,10 +127,19 @@ const CACHED: usize = 1 << 21;
 /// Bytes of a brick: a position for each cell, and bits.
 const BRICK_BYTES: u128 = 4 * BRICK as u128 + 8;
 
-impl<O: PackedObjects> Built<O> {
-    fn new(objects: O, ssm: &Ssm) -> Result<Self, BuildError> {
+/// The cells of a grid over objects, and the order in which the objects are packed.
+struct Laid {
+    grid: Grid,
+    field: Field,
+    cells: Cells,
+    slots: Vec<u32>,
+    apart: bool,
+}
+
+impl Laid {
+    fn new<B: Bounds>(objects: &B, ssm: &Ssm) -> Result<Self, BuildError> {
         let settings = &ssm.settings;
-        let Order { slots, apart, bounds } = order::order(&objects);
+        let Order { slots, apart, bounds } = order::order(objects);
         let others = slots.len() - if apart { GROUP } else { 0 };
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, others)?;
         let mut field = Field::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
@@ -153,11 +164,18 @@ impl<O: PackedObjects> Built<O> {
         });
         field.occupied = occupied.collect::<Vec<_>>().into_boxed_slice();
         if let Some(gain) = ssm.divide {
-            cells = divide::divide(cells, &mut field, &objects, &slots, gain, limit)?;
+            cells = divide::divide(cells, &mut field, objects, &slots, gain, limit)?;
         }
+        Ok(Self { grid, field, cells, slots, apart })
+    }
+}
+
+impl<O: PackedObjects> Built<O> {
+    fn new(objects: O, ssm: &Ssm) -> Result<Self, BuildError> {
+        let settings = ssm.settings;
+        let Laid { grid, field, cells, slots, apart } = Laid::new(&objects.shape(), ssm)?;
         let blocks = objects.blocks(&slots);
-        let mut built =
-            Self { settings: *settings, grid, field, cells, apart, blocks, sort: false, _objects: objects };
+        let mut built = Self { settings, grid, field, cells, apart, blocks, sort: false, _objects: objects };
         built.sort = built.footprint().total() > CACHED;
         Ok(built)
     }

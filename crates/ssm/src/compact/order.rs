@@ -1,7 +1,7 @@
 //! The order in which objects are packed.
 
 use accel::parallel::prelude::*;
-use accel::{Aabb, Objects};
+use accel::{Aabb, Bounds};
 use lanes::{EMPTY_SLOT, ROW};
 
 /// Objects tested together: what one reference of a cell stands for.
@@ -23,7 +23,7 @@ const LARGE: f64 = 0.25;
 /// Sets the largest objects apart, a group at most, and puts the others in order.
 ///
 /// A few objects as large as the scene would be listed all over the grid, and stretch it.
-pub(super) fn order<O: Objects>(objects: &O) -> Order {
+pub(super) fn order<B: Bounds>(objects: &B) -> Order {
     let all = crate::resolution::bounds(objects, |_| true);
     let size = |bounds: &Aabb| {
         (0..3).map(|a| f64::from(bounds.max[a]) - f64::from(bounds.min[a])).fold(0.0, f64::max)
@@ -45,7 +45,7 @@ pub(super) fn order<O: Objects>(objects: &O) -> Order {
 
 /// Objects along a Morton curve through the centres of their boxes, so that the objects of a group are
 /// neighbours; the last group is filled up with empty slots.
-fn morton<O: Objects>(objects: &O, bounds: &Aabb, wanted: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+fn morton<B: Bounds>(objects: &B, bounds: &Aabb, wanted: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     let scale = [0, 1, 2].map(|a| {
         let extent = f64::from(bounds.max[a]) - f64::from(bounds.min[a]);
         if extent > 0.0 { f64::from(1 << BITS) / extent } else { 0.0 }
