@@ -61,20 +61,17 @@ impl<const ANY: bool> Answer for Counted<ANY> {
 /// Words of an image that are looked at together: most are empty, and one branch passes over all of them.
 const GROUP: usize = 8;
 
-/// ⁱR & ʲS of up to [`GROUP`] words, followed by zeros.
+/// Whether ⁱR & ʲS is empty in all words of a whole group.
 #[inline(always)]
-fn both(r: &[u64], s: &[u64]) -> [u64; GROUP] {
-    let mut both = [0; GROUP];
-    if let (Some(r), Some(s)) = (r.first_chunk::<GROUP>(), s.first_chunk::<GROUP>()) {
-        for ((both, r), s) in both.iter_mut().zip(r).zip(s) {
-            *both = r & s;
-        }
-    } else {
-        for ((both, r), s) in both.iter_mut().zip(r).zip(s) {
-            *both = r & s;
-        }
+fn nothing(r: &[u64], s: &[u64]) -> bool {
+    let (Some(r), Some(s)) = (r.first_chunk::<GROUP>(), s.first_chunk::<GROUP>()) else {
+        return false;
+    };
+    let mut both = 0;
+    for (r, s) in r.iter().zip(s) {
+        both |= r & s;
     }
-    both
+    both == 0
 }
 
 /// Which maps serve a set of rays.
@@ -124,15 +121,15 @@ impl<D: Detail> Built<D> {
         let rows = maps.rows.slice(row).chunks(GROUP);
         let cols = maps.cols.slice(col).chunks(GROUP);
         'words: for (group, (r, s_words)) in rows.zip(cols).enumerate() {
-            let words = both(r, s_words);
-            if words == [0; GROUP] {
-                state.count.words(2 * r.len() as u64);
+            if nothing(r, s_words) {
+                state.count.words(2 * GROUP as u64);
                 continue;
             }
-            for (i, word) in words[..r.len()].iter().enumerate() {
+            for (i, (r, s_word)) in r.iter().zip(s_words).enumerate() {
+                let word = r & s_word;
                 state.count.words(2);
                 state.count.candidates(word.count_ones().into());
-                if !self.word::<S, A>(s, group * GROUP + i, *word, &mut state) {
+                if !self.word::<S, A>(s, group * GROUP + i, word, &mut state) {
                     break 'words;
                 }
             }
