@@ -73,7 +73,9 @@ const EXPECTED: [&str; 3] = [
 fn manifest(patches: &str) -> String {
     format!(
         "[package]\nname = \"outside\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n\
-         [dependencies]\nbmssm = \"{VERSION}\"\n\n[patch.crates-io]\n{patches}"
+         [dependencies]\nbmssm = \"{VERSION}\"\n\n\
+         # Compiled for one run: nobody looks for lines in it.\n[profile.dev]\ndebug = false\n\n\
+         [patch.crates-io]\n{patches}"
     )
 }
 
