@@ -47,8 +47,21 @@ fn worst(record: &Record, scene: &Scene) -> Vec<Picture> {
     let rays = RaySet::Raster(raster);
     let exact = judged::exact(scene, &rays);
     let mut all: Vec<(&str, Compared)> = Vec::new();
-    // Those that test every object would take minutes and answer as others of the same kernel do.
-    for structure in record.structure_ids().into_iter().filter(|id| !is_linear(id)) {
+    let mut kernels = Vec::new();
+    // Built-in structures of one kernel have the same answers: the first of them stands for all.
+    let mut first = |structure: &&str| {
+        let choice = registry::parse(structure).ok();
+        let linear = choice.as_ref().is_none_or(|choice| choice.entry.traits.linear);
+        let kernel = choice.and_then(|choice| choice.built_in_kernel());
+        let known = kernel.is_some_and(|kernel| kernels.contains(&kernel));
+        if !linear {
+            kernels.extend(kernel);
+        }
+        !linear && !known
+    };
+    let structures: Vec<&str> =
+        record.structure_ids().into_iter().filter(|structure| first(structure)).collect();
+    for structure in structures {
         let Some(found) = hits(structure, scene, &rays) else { continue };
         let kinds = judged::kinds(scene, &rays, &found, &exact);
         let compared = compare(&scene.geometry, &raster, [&found, &exact], kinds, Shading::Light);
@@ -85,10 +98,6 @@ fn enlarged(scene: &str, structure: &str, compared: &Compared) -> Option<Picture
         units::figure(wrong.depth_mean),
     );
     Some(Picture { png: png(&compared.enlarged((x, y), side, times))?, caption })
-}
-
-fn is_linear(structure: &str) -> bool {
-    registry::parse(structure).is_ok_and(|choice| choice.entry.traits.linear)
 }
 
 fn render(record: &Record, entry: &SceneEntry, scene: &Scene) -> Option<Vec<Picture>> {
