@@ -230,7 +230,7 @@ impl Segment {
 }
 
 /// Where a [`Segment`] lies on its ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Span {
     t_start: f64,
     t_span: f64,

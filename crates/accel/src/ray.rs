@@ -5,7 +5,8 @@ use std::fmt;
 
 /// A ray: the points `origin + t·direction` for t in the closed range
 /// `[t_min, t_max]`. The direction need not be of unit length; t is in units of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct Ray {
     /// The point at t = 0.
     pub origin: Vec3,
@@ -27,6 +28,12 @@ impl Ray {
     #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
+    }
+
+    /// Origin, direction, least and greatest t, in this order.
+    #[inline(always)]
+    pub fn quads(&self) -> &[[f32; 4]; 2] {
+        bytemuck::cast_ref(self)
     }
 
     /// Whether structures accept this ray.

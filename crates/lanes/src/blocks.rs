@@ -53,6 +53,12 @@ pub trait Blocks: Send + Sync {
     /// The object in a slot, or [`EMPTY_SLOT`].
     fn object(&self, slot: usize) -> u32;
 
+    /// Asks for the memory of a block that is soon to be tested.
+    #[inline(always)]
+    fn prefetch(&self, block: usize) {
+        let _ = block;
+    }
+
     /// Prepares a ray.
     fn one(&self, ray: &Ray) -> Self::One;
 

@@ -55,6 +55,21 @@ impl<S: Simd> Packet<S> {
         }
     }
 
+    /// The rays at the first `LANES` places.
+    #[inline(always)]
+    pub fn gather(s: S, rays: &[&Ray; ROW]) -> Self {
+        let mut half = [&rays[0].quads()[0]; ROW];
+        for (half, ray) in half.iter_mut().zip(rays) {
+            *half = &ray.quads()[0];
+        }
+        let [x, y, z, dx] = s.load_quads(&half);
+        for (half, ray) in half.iter_mut().zip(rays) {
+            *half = &ray.quads()[1];
+        }
+        let [dy, dz, t_min, t_max] = s.load_quads(&half);
+        Self { origin: [x, y, z], direction: [dx, dy, dz], t_min, t_max }
+    }
+
     /// [`Raster::ray`] in lanes, bit for bit, for pixel centres `x` = column + ½ and `y` = row + ½.
     #[inline(always)]
     pub fn of_raster(s: S, raster: &Raster, x: S::F, y: S::F) -> Self {

@@ -14,8 +14,16 @@ pub(super) struct Built<O: PackedObjects> {
     general: Option<General<O>>,
 }
 
-/// Rays of a list that one task of the thread pool traces.
-const CHUNK: usize = 1 << 13;
+/// Rays of a list that one task of the thread pool traces: all in long streams, unless that leaves a thread with nothing.
+fn chunk(rays: usize) -> usize {
+    const LEAST: usize = 1 << 13;
+    const MOST: usize = 1 << 18;
+    let shares = match accel::parallel::threads() {
+        1 => 1,
+        threads => 4 * threads,
+    };
+    rays.div_ceil(shares).next_multiple_of(LEAST).clamp(LEAST, MOST)
+}
 
 impl<O: PackedObjects> Built<O> {
     pub fn new(objects: O, plan: Plan) -> Self {
@@ -37,8 +45,9 @@ impl<O: PackedObjects> Built<O> {
 
     fn trace_general<T: Send>(&self, rays: &RaySet, out: &mut [T], of: impl Fn(&[Ray], &mut [T]) + Sync) {
         assert_eq!(rays.len(), out.len(), "one place for each ray");
-        for_each_chunk(out, CHUNK, &|chunk, out| {
-            let first = chunk * CHUNK;
+        let size = chunk(rays.len());
+        for_each_chunk(out, size, &|chunk, out| {
+            let first = chunk * size;
             match rays {
                 RaySet::List(list) => of(&list[first..first + out.len()], out),
                 RaySet::Raster(_) => of(&rays_of(rays, first, out.len()), out),

@@ -3,7 +3,7 @@
 use super::item::Item;
 use super::unit_box::UnitBox;
 use accel::tolerance::LOCAL_MARGIN;
-use lanes::path::{Path, SLICES};
+use lanes::path::{Hull, Path, SLICES};
 use lanes::{BLOCK, Simd};
 
 /// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be
@@ -90,6 +90,21 @@ impl BlockMaps {
         let maps = &self.maps;
         let (axis, b, c) = ([0, 1, 2][axis], [1, 2, 0][axis], [2, 0, 1][axis]);
         s.path_union([&maps[axis], &maps[b], &maps[c]], path)
+    }
+
+    /// The candidates within a hull that is described along `axis`.
+    #[inline(always)]
+    pub(super) fn within<S: Simd>(&self, s: S, axis: usize, hull: &Hull) -> u64 {
+        let maps = &self.maps;
+        let (axis, b, c) = ([0, 1, 2][axis], [1, 2, 0][axis], [2, 0, 1][axis]);
+        s.hull_union([&maps[axis], &maps[b], &maps[c]], hull)
+    }
+
+    /// Two unit coordinates on an axis as the block's own.
+    #[inline(always)]
+    pub(super) fn local_pair(&self, axis: usize, [a, b]: [f32; 2]) -> [f32; 2] {
+        let (origin, density) = (self.origin[axis], self.density[axis]);
+        [(a - origin) * density, (b - origin) * density]
     }
 
     #[inline(always)]

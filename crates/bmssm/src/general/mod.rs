@@ -1,9 +1,12 @@
 //! General rays: R & S & T over blocks of objects and blocks of blocks (Skala 1993, §5, and
 //! the hierarchical data structures that its §7 suggests).
 
+mod beam;
+mod beams;
 mod item;
 mod maps;
 mod order;
+mod ready;
 mod split;
 mod stream;
 mod trace;
@@ -12,14 +15,15 @@ mod unit_box;
 
 use accel::grid::Grid;
 use accel::{Count, Footprint, Hit, Nearest, NoCount, Ray, vec_bytes};
-use item::Scene;
+use item::{Item, Scene};
 use lanes::{Blocks, Level, PackedObjects, Portable, Simd, Task};
 use maps::BlockMaps;
 use order::Order;
+use ready::Room;
 use split::Shape;
-use stream::{Room, STREAM};
 use trace::Stack;
 use tree::Node;
+use unit_box::UnitBox;
 
 /// Most objects that are split object by object.
 pub const MOST_STRETCH: usize = order::PART;
@@ -69,8 +73,13 @@ pub struct General<O: PackedObjects> {
     maps: Vec<BlockMaps>,
     /// The levels above.
     nodes: Vec<Node>,
+    /// How far from each other rays of a beam may begin or end, in unit coordinates: about as far as a block is long, for
+    /// wider beams meet many blocks that few of their rays meet.
+    spread: f32,
     /// The objects, reordered.
     objects: O::Blocks,
+    /// How many of them there are.
+    len: usize,
     simd: Level,
 }
 
@@ -81,12 +90,14 @@ impl<O: PackedObjects> General<O> {
         let Scene { frame, extent, items, keys } = Scene::new(&objects.shape(), simd);
         let shape = Shape { extent };
         let Order { slots, maps, blocks } = Order::new(&shape, items, keys, settings);
+        let spread = mean_side(&blocks);
         let nodes = tree::over(&shape, blocks, simd);
+        let len = objects.len();
         let objects = match settings.storage {
             Storage::Rows => objects.blocks(&slots),
             Storage::Scene => objects.blocks_in_place(&slots),
         };
-        Self { frame, maps, nodes, objects, simd }
+        Self { frame, maps, nodes, spread, objects, len, simd }
     }
 
     /// The nearest hit of each ray.
@@ -114,6 +125,15 @@ impl<O: PackedObjects> General<O> {
     }
 }
 
+/// The longest sides of the blocks' boxes, in the mean.
+fn mean_side(blocks: &[Item]) -> f32 {
+    let side = |block: &Item| {
+        let UnitBox { min, max } = block.bounds();
+        (max[0] - min[0]).max(max[1] - min[1]).max(max[2] - min[2])
+    };
+    blocks.iter().map(side).sum::<f32>() / blocks.len().max(1) as f32
+}
+
 struct Closest<'a, O: PackedObjects> {
     general: &'a General<O>,
     rays: &'a [Ray],
@@ -129,8 +149,8 @@ impl<O: PackedObjects> Task for Closest<'_, O> {
             *hit = self.general.nearest::<S, NoCount, false>(s, ray, &mut stack, &mut NoCount).hit();
             return;
         }
-        let mut room = Room::default();
-        for (rays, hits) in self.rays.chunks(STREAM).zip(self.hits.chunks_mut(STREAM)) {
+        let (mut room, stream) = (Room::default(), self.general.stream_len());
+        for (rays, hits) in self.rays.chunks(stream).zip(self.hits.chunks_mut(stream)) {
             self.general.stream::<S, NoCount, false>(s, rays, &mut room, &mut NoCount);
             for (hit, best) in hits.iter_mut().zip(&room.best) {
                 *hit = best.hit();
@@ -155,8 +175,8 @@ impl<O: PackedObjects> Task for Occluded<'_, O> {
                 self.general.nearest::<S, NoCount, true>(s, ray, &mut stack, &mut NoCount).hit().is_some();
             return;
         }
-        let mut room = Room::default();
-        for (rays, occluded) in self.rays.chunks(STREAM).zip(self.occluded.chunks_mut(STREAM)) {
+        let (mut room, stream) = (Room::default(), self.general.stream_len());
+        for (rays, occluded) in self.rays.chunks(stream).zip(self.occluded.chunks_mut(stream)) {
             self.general.stream::<S, NoCount, true>(s, rays, &mut room, &mut NoCount);
             for (occluded, best) in occluded.iter_mut().zip(&room.best) {
                 *occluded = best.object != Nearest::NONE;
@@ -177,7 +197,7 @@ impl<O: PackedObjects, C: Count> Task for Counted<'_, O, C> {
     #[inline(always)]
     fn run<S: Simd>(mut self, s: S) -> C {
         let mut room = Room::default();
-        for rays in self.rays.chunks(STREAM) {
+        for rays in self.rays.chunks(self.general.stream_len()) {
             if self.occlusion {
                 self.general.stream::<S, C, true>(s, rays, &mut room, &mut self.count);
             } else {

@@ -4,119 +4,43 @@
 
 use super::General;
 use super::maps::BlockMaps;
-use super::trace::at_least;
+use super::ready::{Begun, Room, Traveller, Way};
 use super::tree::{Node, WIDTH};
-use accel::grid::{RayRows, SegmentRows, Span};
 use accel::{Count, Nearest, Ray};
 use lanes::packet::{Packet, Pairs};
 use lanes::path::Path;
 use lanes::{Blocks, PackedObjects, ROW, SHARE, Simd, prefetch};
 
-/// Rays of a stream at most: what they need fits into a cache of the second level.
-pub(super) const STREAM: usize = 1 << 13;
+/// Rays of a stream at most: as many as short numbers tell apart.
+pub(super) const STREAM: usize = 1 << 16;
 
-/// A ray on its way, as its tests need it: four values each that are loaded at once.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(16))]
-struct Traveller {
-    /// In unit coordinates, and the place up to which objects must be looked at; −1 when the ray is done.
-    start: [f32; 4],
-    /// One over each component of the way, and nothing.
-    inverse: [f32; 4],
-    /// The way, and nothing.
-    delta: [f32; 4],
-    /// The ray's own, and `t_min`.
-    origin: [f32; 4],
-    /// The ray's own, and `t_max`.
-    direction: [f32; 4],
-}
+/// Rays of a stream over few blocks, whose rays fit into a cache of the second level.
+const SHORT_STREAM: usize = 1 << 14;
 
-impl Traveller {
-    const DONE: f32 = -1.0;
-}
+/// From this many blocks on streams are long: in short ones too few rays would reach each block.
+const MANY_BLOCKS: usize = 1 << 11;
 
-/// The ways of rays through the scene, coordinate by coordinate.
-struct Ways {
-    start: [[f32; ROW]; 3],
-    delta: [[f32; ROW]; 3],
-    inverse: [[f32; ROW]; 3],
-    /// Which components of each way are negative, as bits.
-    octant: [u8; ROW],
-}
-
-impl Ways {
-    #[inline(always)]
-    fn of(rows: &SegmentRows<ROW>) -> Self {
-        let (mut delta, mut inverse, mut octant) = (rows.delta, [[0.0; ROW]; 3], [0; ROW]);
-        for axis in 0..3 {
-            for lane in 0..ROW {
-                let component = at_least(delta[axis][lane]);
-                delta[axis][lane] = component;
-                inverse[axis][lane] = 1.0 / component;
-                octant[lane] |= u8::from(component < 0.0) << axis;
-            }
-        }
-        Self { start: rows.start, delta, inverse, octant }
-    }
-
-    #[inline(always)]
-    fn traveller(&self, lane: usize, ray: &Ray, limit: f32) -> Traveller {
-        let Self { start, delta, inverse, .. } = self;
-        Traveller {
-            start: [start[0][lane], start[1][lane], start[2][lane], limit],
-            inverse: [inverse[0][lane], inverse[1][lane], inverse[2][lane], 0.0],
-            delta: [delta[0][lane], delta[1][lane], delta[2][lane], 0.0],
-            origin: [ray.origin.x, ray.origin.y, ray.origin.z, ray.t_min],
-            direction: [ray.direction.x, ray.direction.y, ray.direction.z, ray.t_max],
-        }
-    }
-}
+/// So many objects are tested with every ray, sooner than rays are prepared for anything else.
+const FEW: usize = 8;
 
 /// Rays that wait to visit a node or a block.
 #[derive(Clone, Copy, Debug)]
-struct Waiting {
+pub(super) struct Waiting {
     /// As in [`Node::children`].
-    what: u32,
+    pub(super) what: u32,
     /// Where their numbers begin in the lists, and how many they are.
-    first: u32,
-    len: u32,
+    pub(super) first: u32,
+    pub(super) len: u32,
     /// Up to where the lists are in use.
-    top: u32,
+    pub(super) top: u32,
 }
-
-/// What a thread keeps from stream to stream.
-pub(super) struct Room<One> {
-    travellers: Vec<Traveller>,
-    spans: Vec<Span>,
-    ones: Vec<One>,
-    pub(super) best: Vec<Nearest>,
-    /// Numbers of rays, list after list.
-    lists: Vec<u16>,
-    stack: Vec<Waiting>,
-    /// Places of rays in a packet, and of candidates in a block.
-    pair_rays: Vec<u8>,
-    pair_slots: Vec<u8>,
-}
-
-impl<One> Default for Room<One> {
-    fn default() -> Self {
-        Self {
-            travellers: Vec::new(),
-            spans: Vec::new(),
-            ones: Vec::new(),
-            best: Vec::new(),
-            lists: Vec::new(),
-            stack: Vec::new(),
-            pair_rays: vec![0; PAIRS],
-            pair_slots: vec![0; PAIRS],
-        }
-    }
-}
-
-/// Octants of directions.
-const OCTANTS: usize = 8;
 
 impl<O: PackedObjects> General<O> {
+    /// Rays that are best taken together.
+    pub(super) fn stream_len(&self) -> usize {
+        if self.maps.len() < MANY_BLOCKS { SHORT_STREAM } else { STREAM }
+    }
+
     /// The nearest hits of up to [`STREAM`] rays, or for `ANY` some hit, left in `room.best`.
     #[inline(always)]
     pub(super) fn stream<S: Simd, C: Count, const ANY: bool>(
@@ -126,18 +50,18 @@ impl<O: PackedObjects> General<O> {
         room: &mut Room<<O::Blocks as Blocks>::One>,
         count: &mut C,
     ) {
-        let octants = self.begin::<S>(rays, room);
-        if self.nodes.is_empty() {
-            return;
+        if self.len <= FEW {
+            return self.test_all::<S, C, ANY>(s, rays, room, count);
         }
-        let mut first = 0;
-        for (octant, len) in octants.into_iter().enumerate().take(OCTANTS) {
-            if len > 0 {
-                let top = rays.len() as u32;
-                room.stack.push(Waiting { what: 0, first, len, top });
-                self.drain::<S, C, ANY>(s, octant, room, count);
+        let Begun { octants, top } = self.begin(s, rays, room);
+        for (octant, ready) in octants.iter().enumerate() {
+            if ready.len > 0 {
+                room.stack.push(Waiting { what: 0, first: ready.first, len: ready.len, top });
+                self.drain::<S, C, ANY>(s, octant, rays, room, count);
             }
-            first += len;
+            if ready.beams > 0 {
+                self.drain_beams::<S, C, ANY>(s, octant, ready, top, room, count);
+            }
         }
         if !O::Blocks::takes_pairs::<S>() {
             for (one, best) in room.ones.iter().zip(&mut room.best) {
@@ -146,59 +70,13 @@ impl<O: PackedObjects> General<O> {
         }
     }
 
-    /// Prepares the rays and lists those that meet the scene by octant; tells how many are in each.
-    #[inline(always)]
-    fn begin<S: Simd>(
-        &self,
-        rays: &[Ray],
-        room: &mut Room<<O::Blocks as Blocks>::One>,
-    ) -> [u32; OCTANTS + 1] {
-        assert!(rays.len() <= STREAM, "no more rays than a stream holds");
-        let Room { travellers, spans, ones, best, lists, .. } = room;
-        travellers.clear();
-        spans.clear();
-        ones.clear();
-        best.clear();
-        if lists.len() < rays.len() + SHARE {
-            lists.resize(rays.len() + SHARE, 0);
-        }
-        let mut places = [0; STREAM];
-        let mut counts = [0; OCTANTS + 1];
-        let limit = 1.0 + accel::tolerance::LIMIT_S as f32;
-        for (rays, places) in rays.chunks(ROW).zip(places.chunks_exact_mut(ROW)) {
-            let rows = self.frame.clip_rows(&RayRows::load(rays));
-            let ways = Ways::of(&rows);
-            for (lane, (ray, place)) in rays.iter().zip(places).enumerate() {
-                best.push(Nearest::new(ray.t_max));
-                spans.push(rows.span(lane));
-                travellers.push(ways.traveller(lane, ray, limit));
-                if !O::Blocks::takes_pairs::<S>() {
-                    ones.push(self.objects.one(ray));
-                }
-                // Those that miss the scene are in none.
-                let octant = if rows.met[lane] { ways.octant[lane] } else { OCTANTS as u8 };
-                counts[usize::from(octant)] += 1;
-                *place = octant;
-            }
-        }
-        let mut next = [0; OCTANTS + 1];
-        for octant in 0..OCTANTS {
-            next[octant + 1] = next[octant] + counts[octant];
-        }
-        for (i, place) in places[..rays.len()].iter().enumerate() {
-            let next = &mut next[usize::from(*place)];
-            lists[*next as usize] = i as u16;
-            *next += 1;
-        }
-        counts
-    }
-
     /// Takes rays of one octant through all that they meet.
     #[inline(always)]
     fn drain<S: Simd, C: Count, const ANY: bool>(
         &self,
         s: S,
         octant: usize,
+        rays: &[Ray],
         room: &mut Room<<O::Blocks as Blocks>::One>,
         count: &mut C,
     ) {
@@ -206,19 +84,21 @@ impl<O: PackedObjects> General<O> {
         while let Some(next) = room.stack.pop() {
             if next.what & Node::BLOCK == 0 {
                 count.cells(u64::from(next.len));
-                visit(s, &self.nodes[next.what as usize], &negative, next, room);
+                let Room { travellers, lists, stack, .. } = &mut *room;
+                visit(s, &self.nodes[next.what as usize], &negative, next, travellers, lists, stack);
                 for waiting in room.stack.iter().rev().take(2) {
                     self.ask_for(waiting.what);
                 }
             } else {
                 count.blocks(u64::from(next.len));
-                self.block::<S, C, ANY>(s, &negative, next, room, count);
+                self.objects.prefetch((next.what & !Node::BLOCK) as usize);
+                self.block::<S, C, ANY>(s, &negative, next, rays, room, count);
             }
         }
     }
 
     #[inline(always)]
-    fn ask_for(&self, what: u32) {
+    pub(super) fn ask_for(&self, what: u32) {
         if what & Node::BLOCK == 0 {
             prefetch(&self.nodes[what as usize]);
         } else {
@@ -233,6 +113,7 @@ impl<O: PackedObjects> General<O> {
         s: S,
         negative: &[bool; 3],
         at: Waiting,
+        rays: &[Ray],
         room: &mut Room<<O::Blocks as Blocks>::One>,
         count: &mut C,
     ) {
@@ -277,16 +158,11 @@ impl<O: PackedObjects> General<O> {
                 }
             }
             if pairs > 0 {
-                let mut quads = [&chosen[0].origin; ROW];
-                for (quad, chosen) in quads.iter_mut().zip(&chosen) {
-                    *quad = &chosen.origin;
+                let mut chosen = [&rays[usize::from(ids[0])]; ROW];
+                for (chosen, id) in chosen.iter_mut().zip(ids) {
+                    *chosen = &rays[usize::from(*id)];
                 }
-                let [x, y, z, t_min] = s.load_quads(&quads);
-                for (quad, chosen) in quads.iter_mut().zip(&chosen) {
-                    *quad = &chosen.direction;
-                }
-                let [dx, dy, dz, t_max] = s.load_quads(&quads);
-                let packet = Packet { origin: [x, y, z], direction: [dx, dy, dz], t_min, t_max };
+                let packet = Packet::gather(s, &chosen);
                 let mut nearest = [Nearest::new(f32::NEG_INFINITY); ROW];
                 for (nearest, id) in nearest.iter_mut().zip(ids) {
                     *nearest = best[usize::from(*id)];
@@ -319,12 +195,19 @@ impl<O: PackedObjects> General<O> {
 }
 
 /// Pairs of all rays of a packet and all objects of a block, and as many again to be written at once.
-const PAIRS: usize = (ROW + 1) * lanes::BLOCK;
+pub(super) const PAIRS: usize = (ROW + 1) * lanes::BLOCK;
 
 /// Sorts the rays to the children that they meet, and puts these on the stack, the one that they enter first on top.
 #[inline(always)]
-fn visit<S: Simd, One>(s: S, node: &Node, negative: &[bool; 3], at: Waiting, room: &mut Room<One>) {
-    let Room { travellers, lists, stack, .. } = room;
+pub(super) fn visit<S: Simd, W: Way>(
+    s: S,
+    node: &Node,
+    negative: &[bool; 3],
+    at: Waiting,
+    ways: &[W],
+    lists: &mut Vec<u16>,
+    stack: &mut Vec<Waiting>,
+) {
     let (first, len, top) = (at.first as usize, at.len as usize, at.top as usize);
     let stride = len.next_multiple_of(SHARE) + SHARE;
     let end = top + WIDTH * stride;
@@ -347,12 +230,14 @@ fn visit<S: Simd, One>(s: S, node: &Node, negative: &[bool; 3], at: Waiting, roo
             }
             let mut sum = s.load(&sums[lane..]);
             for (id, marks) in list.iter().zip(&mut marks) {
-                let Traveller { start, inverse, .. } = &travellers[usize::from(*id)];
+                let way = &ways[usize::from(*id)];
+                let (first, last) = (way.near(), way.far());
                 let mut enter = s.splat(0.0);
-                let mut exit = s.splat(start[3]);
+                let mut exit = s.splat(first.start[3]);
                 for axis in 0..3 {
-                    let (start, inverse) = (s.splat(start[axis]), s.splat(inverse[axis]));
+                    let (start, inverse) = (s.splat(first.start[axis]), s.splat(first.inverse[axis]));
                     enter = s.max(enter, s.mul(s.sub(near[axis], start), inverse));
+                    let (start, inverse) = (s.splat(last.start[axis]), s.splat(last.inverse[axis]));
                     exit = s.min(exit, s.mul(s.sub(far[axis], start), inverse));
                 }
                 let met = s.le(enter, exit);
@@ -416,19 +301,15 @@ impl Paths {
             *quad = &chosen.inverse;
         }
         let [ix, iy, iz, _] = s.load_quads(&quads);
-        for (quad, chosen) in quads.iter_mut().zip(chosen) {
-            *quad = &chosen.delta;
-        }
-        let [dx, dy, dz, _] = s.load_quads(&quads);
-        let (start, inverse, delta) = ([x, y, z], [ix, iy, iz], [dx, dy, dz]);
+        let (start, inverse) = ([x, y, z], [ix, iy, iz]);
         let (zero, last) = (s.splat(0.0), s.splat(lanes::path::SLICES as f32));
         let (mut enter, mut exit) = (zero, limit);
         let (mut from, mut to, mut way, mut size) = ([zero; 3], [zero; 3], [zero; 3], [zero; 3]);
         for axis in 0..3 {
             let density = s.splat(maps.density[axis]);
             from[axis] = s.mul(s.sub(start[axis], s.splat(maps.origin[axis])), density);
-            way[axis] = s.mul(delta[axis], density);
             let per_slice = s.mul(inverse[axis], s.splat(1.0 / maps.density[axis]));
+            way[axis] = s.div(s.splat(1.0), per_slice);
             let (near, far) = if negative[axis] { (last, zero) } else { (zero, last) };
             enter = s.max(enter, s.mul(s.sub(near, from[axis]), per_slice));
             exit = s.min(exit, s.mul(s.sub(far, from[axis]), per_slice));

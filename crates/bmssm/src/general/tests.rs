@@ -51,6 +51,40 @@ fn rays(seed: u64, count: usize, scale: f32, offset: Vec3) -> Vec<Ray> {
         .collect()
 }
 
+/// Rays of neighbours in runs that share their end, their origin or their direction, or nothing, some of them without
+/// extent on an axis, some of short or empty ranges.
+fn bundles(seed: u64, count: usize) -> Vec<Ray> {
+    let mut number = numbers(seed ^ 0x7777);
+    let mut point = |size: f32| Vec3::new(number(), number(), number()) * size;
+    let mut rays = Vec::new();
+    while rays.len() < count {
+        let run = 3 + rays.len() % 61;
+        let (corner, across, down) = (point(1.5), point(0.02), point(0.02));
+        let (end, aim) = (point(2.0), point(1.0));
+        let axis = Vec3::AXES[run % 3] * if run % 2 == 0 { -1.0 } else { 1.0 };
+        for i in 0..run {
+            let place = corner + across * (i % 8) as f32 + down * (i / 8) as f32;
+            let (origin, direction) = match run % 7 {
+                0 | 1 => (place, end - place),
+                2 => (end, place - end),
+                3 => (place, aim),
+                4 => (place, axis),
+                5 => (Vec3::new(place.x, 0.25, place.z), Vec3::new(aim.x, -0.0, aim.z)),
+                _ => (place, point(1.0)),
+            };
+            let (t_min, t_max) = match (run / 7 + i) % 5 {
+                0 => (0.0, 1.0 - 1.0 / 1024.0),
+                1 => (-0.5, 0.5),
+                2 if i % 11 == 0 => (0.75, 0.25),
+                _ => (0.0, f32::INFINITY),
+            };
+            rays.push(Ray { origin, direction, t_min, t_max });
+        }
+    }
+    rays.retain(|ray| ray.validate().is_ok());
+    rays
+}
+
 struct Differences<'a>(&'a [Ray], &'a [Option<Hit>], Level, usize);
 
 impl<'s> WithObjects<'s> for Differences<'_> {
@@ -179,4 +213,33 @@ proptest! {
     fn small_scenes_lose_nothing(seed: u64, count in 1u32..400) {
         assert_no_differences(triangles(seed, count, 1.0, Vec3::ZERO), &rays(seed, 200, 1.0, Vec3::ZERO));
     }
+
+    #[test]
+    fn neighbours_taken_together_lose_nothing(seed: u64, count in 1u32..900) {
+        assert_no_differences(triangles(seed, count, 1.0, Vec3::ZERO), &bundles(seed, 300));
+    }
+}
+
+#[test]
+fn neighbours_are_taken_together() {
+    struct Steps<'a>(&'a [Ray]);
+    impl<'s> WithObjects<'s> for Steps<'_> {
+        type Out = u64;
+        fn objects<O: PackedObjects + 's>(self, objects: O) -> u64 {
+            let settings = Settings { simd: Level::Portable, stretch: MOST_STRETCH, storage: Storage::Rows };
+            General::new(&objects, settings).count::<accel::Counters>(self.0, true).blocks
+        }
+    }
+    let scene = scene(triangles(6, 5000, 1.0, Vec3::ZERO));
+    let light = Vec3::new(3.0, 2.0, 1.0);
+    let from = |i: u32| Vec3::new(-2.0 + 0.001 * (i % 64) as f32, 0.001 * (i / 64) as f32, -1.0);
+    let shadows: Vec<Ray> = (0..2048).map(|i| Ray::new(from(i), light - from(i))).collect();
+    let single: Vec<Ray> = shadows.iter().step_by(37).copied().collect();
+    let steps = |rays: &[Ray]| {
+        let blocks = primitives::with_objects(&scene, KernelId::MollerTrumbore, Steps(rays));
+        blocks as f64 / rays.len() as f64
+    };
+    let alone: f64 =
+        single.iter().map(|ray| steps(std::slice::from_ref(ray))).sum::<f64>() / single.len() as f64;
+    assert!(steps(&shadows) < alone / 4.0, "{} {alone}", steps(&shadows));
 }

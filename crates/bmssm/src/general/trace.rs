@@ -7,6 +7,9 @@ use accel::tolerance::{LIMIT_S, PARALLEL};
 use accel::{Count, Nearest, Ray};
 use lanes::{Blocks, PackedObjects, ROW, Simd};
 
+/// A component of the way is at least this long, so that its reciprocal is finite and no product is NaN.
+pub(super) const LEAST: f32 = PARALLEL as f32;
+
 /// A ray in the unit coordinates of the scene, as `start + s·delta` with s from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 struct Way {
@@ -35,8 +38,7 @@ impl Way {
 }
 
 #[inline(always)]
-pub(super) fn at_least(component: f32) -> f32 {
-    const LEAST: f32 = PARALLEL as f32;
+fn at_least(component: f32) -> f32 {
     if component.abs() < LEAST { LEAST.copysign(component) } else { component }
 }
 

@@ -1,6 +1,6 @@
 //! Sixteen lanes of AVX-512.
 
-use super::path::{Path, SLICES};
+use super::path::{BESIDE, Hull, Path, SLICES};
 use super::{ROW, Row, SHARE, Simd, Task};
 use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
@@ -180,6 +180,25 @@ impl Simd for Avx512 {
         }
     }
     #[inline(always)]
+    fn store_quads(self, [a, b, c, d]: [Self::F; 4]) -> [[f32; 4]; ROW] {
+        let mut quads = [[0.0; 4]; ROW];
+        // SAFETY: the token proves the features; each place has four floats.
+        unsafe {
+            let ab = [_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b)];
+            let cd = [_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d)];
+            for i in 0..4 {
+                let (ab, cd) = (_mm512_castps_pd(ab[i / 2]), _mm512_castps_pd(cd[i / 2]));
+                let row = if i % 2 == 0 { _mm512_unpacklo_pd(ab, cd) } else { _mm512_unpackhi_pd(ab, cd) };
+                let row = _mm512_castpd_ps(row);
+                _mm_storeu_ps(quads[i].as_mut_ptr(), _mm512_extractf32x4_ps::<0>(row));
+                _mm_storeu_ps(quads[i + 4].as_mut_ptr(), _mm512_extractf32x4_ps::<1>(row));
+                _mm_storeu_ps(quads[i + 8].as_mut_ptr(), _mm512_extractf32x4_ps::<2>(row));
+                _mm_storeu_ps(quads[i + 12].as_mut_ptr(), _mm512_extractf32x4_ps::<3>(row));
+            }
+        }
+        quads
+    }
+    #[inline(always)]
     fn load_bytes(self, from: &[u8]) -> Self::U {
         let from = &from[..16];
         // SAFETY: the token proves the features; the slice has 16 bytes.
@@ -262,6 +281,89 @@ impl Simd for Avx512 {
             _mm512_reduce_or_epi64(met).cast_unsigned()
         }
     }
+
+    /// All eight slices at once.
+    #[inline(always)]
+    fn hull_union(self, maps: [&[u64; SLICES]; 3], hull: &Hull) -> u64 {
+        // SAFETY: the token proves the features; each map has the eight words that are loaded.
+        unsafe {
+            let word = |map: &[u64; SLICES]| _mm512_loadu_epi64(map.as_ptr().cast());
+            let [a, b, c] = [word(maps[0]), word(maps[1]), word(maps[2])];
+            let slice = _mm256_setr_ps(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0);
+            let next = _mm256_setr_ps(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0);
+            let (low, high) = (_mm256_set1_ps(hull.low), _mm256_set1_ps(hull.high));
+            let left = _mm256_sub_ps(_mm256_max_ps(slice, low), low);
+            let right = _mm256_sub_ps(_mm256_min_ps(next, high), low);
+            let met =
+                _mm256_cmp_ps_mask::<_CMP_GT_OQ>(next, low) & _mm256_cmp_ps_mask::<_CMP_LE_OQ>(slice, high);
+            let (b, met) = within(b, left, right, &hull.sides[0], met);
+            let (c, met) = within(c, left, right, &hull.sides[1], met);
+            let met = _mm512_maskz_and_epi64(met, a, _mm512_and_epi64(b, c));
+            _mm512_reduce_or_epi64(met).cast_unsigned()
+        }
+    }
+
+    #[inline(always)]
+    fn least(self, v: Self::F) -> f32 {
+        intrinsic!(_mm512_reduce_min_ps(v))
+    }
+
+    #[inline(always)]
+    fn most(self, v: Self::F) -> f32 {
+        intrinsic!(_mm512_reduce_max_ps(v))
+    }
+}
+
+/// The words between two lines in each of eight steps, and which of the steps `met` have any.
+///
+/// # Safety
+/// The processor has AVX-512 F and VL.
+#[inline(always)]
+unsafe fn within(
+    map: __m512i,
+    left: __m256,
+    right: __m256,
+    [low, high]: &[[f32; 2]; 2],
+    met: u8,
+) -> (__m512i, u8) {
+    // SAFETY: the caller vouches for the instruction set; no memory is touched.
+    unsafe {
+        let (start, slope) = (_mm256_set1_ps(low[0]), _mm256_set1_ps(low[1]));
+        let p = _mm256_add_ps(start, _mm256_mul_ps(slope, left));
+        let q = _mm256_add_ps(start, _mm256_mul_ps(slope, right));
+        let near = _mm256_min_ps(p, q);
+        let (start, slope) = (_mm256_set1_ps(high[0]), _mm256_set1_ps(high[1]));
+        let p = _mm256_add_ps(start, _mm256_mul_ps(slope, left));
+        let q = _mm256_add_ps(start, _mm256_mul_ps(slope, right));
+        let far = _mm256_max_ps(p, q);
+        let met = met
+            & _mm256_cmp_ps_mask::<_CMP_GE_OQ>(far, _mm256_set1_ps(-BESIDE))
+            & _mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, _mm256_set1_ps(SLICES as f32 + BESIDE));
+        let (mut at, end) = (slices(near), slices(far));
+        let mut words = _mm512_permutexvar_epi64(at, map);
+        loop {
+            let more = _mm512_cmplt_epi64_mask(at, end) & met;
+            if more == 0 {
+                return (words, met);
+            }
+            at = _mm512_mask_add_epi64(at, more, at, _mm512_set1_epi64(1));
+            words = _mm512_or_epi64(words, _mm512_permutexvar_epi64(at, map));
+        }
+    }
+}
+
+/// The slices of eight positions, those outside counting to the nearest.
+///
+/// # Safety
+/// The processor has AVX-512 F and VL.
+#[inline(always)]
+unsafe fn slices(position: __m256) -> __m512i {
+    // SAFETY: the caller vouches for the instruction set; no memory is touched.
+    unsafe {
+        let last = _mm256_set1_ps((SLICES - 1) as f32);
+        let inside = _mm256_min_ps(_mm256_max_ps(position, _mm256_setzero_ps()), last);
+        _mm512_cvtepi32_epi64(_mm256_cvttps_epi32(inside))
+    }
 }
 
 /// The words of the slices between two positions in each of eight steps.
@@ -288,10 +390,5 @@ unsafe fn touched(map: __m512i, left: __m256, right: __m256, start: f32, slope: 
 #[inline(always)]
 unsafe fn lookup(map: __m512i, position: __m256) -> __m512i {
     // SAFETY: the caller vouches for the instruction set; no memory is touched.
-    unsafe {
-        let last = _mm256_set1_ps((SLICES - 1) as f32);
-        let inside = _mm256_min_ps(_mm256_max_ps(position, _mm256_setzero_ps()), last);
-        let index = _mm512_cvtepi32_epi64(_mm256_cvttps_epi32(inside));
-        _mm512_permutexvar_epi64(index, map)
-    }
+    unsafe { _mm512_permutexvar_epi64(slices(position), map) }
 }

@@ -36,18 +36,25 @@ pub struct Row(pub [f32; ROW]);
 /// Ids that are distributed at once.
 pub const SHARE: usize = 32;
 
-/// Asks for the memory at a place that is soon to be read, where there is an instruction for it.
+/// Asks for the memory of something that is soon to be read, where there is an instruction for it.
 #[inline(always)]
-pub fn prefetch<T>(place: &T) {
+pub fn prefetch<T: ?Sized>(what: &T) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: SSE, which every x86-64 has, and a hint that reads nothing.
-    unsafe {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(place).cast());
+    for line in (0..size_of_val(what)).step_by(LINE) {
+        let first = std::ptr::from_ref(what).cast::<i8>();
+        // SAFETY: SSE, which every x86-64 has, and a hint that reads nothing; the place is within `what`.
+        unsafe {
+            use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+            _mm_prefetch::<_MM_HINT_T0>(first.add(line));
+        }
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = place;
+    let _ = what;
 }
+
+/// Bytes that come from memory together.
+#[cfg(target_arch = "x86_64")]
+const LINE: usize = 64;
 
 /// Proof that an instruction set is present, and its operations.
 pub trait Simd: Copy + Send + Sync + 'static {
@@ -136,6 +143,20 @@ pub trait Simd: Copy + Send + Sync + 'static {
         [self.load(&rows[0]), self.load(&rows[1]), self.load(&rows[2]), self.load(&rows[3])]
     }
 
+    /// The inverse of [`Simd::load_quads`]: place i of the result holds lane i of each, up to `LANES`.
+    #[inline(always)]
+    fn store_quads(self, from: [Self::F; 4]) -> [[f32; 4]; ROW] {
+        let mut rows = [[0.0; ROW]; 4];
+        for (row, from) in rows.iter_mut().zip(from) {
+            self.store(from, row);
+        }
+        let mut quads = [[0.0; 4]; ROW];
+        for (lane, quad) in quads.iter_mut().enumerate().take(Self::LANES) {
+            *quad = [rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]];
+        }
+        quads
+    }
+
     /// The first `LANES` bytes of a slice.
     ///
     /// # Panics
@@ -213,6 +234,32 @@ pub trait Simd: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn path_union(self, maps: [&[u64; path::SLICES]; 3], path: &path::Path) -> u64 {
         path::union(maps, path)
+    }
+
+    /// The bits that a hull through three maps touches; see [`path::Hull`].
+    #[inline(always)]
+    fn hull_union(self, maps: [&[u64; path::SLICES]; 3], hull: &path::Hull) -> u64 {
+        path::hull_union(maps, hull)
+    }
+
+    /// The least lane, of numbers.
+    #[inline(always)]
+    fn least(self, v: Self::F) -> f32 {
+        let mut lanes = [f32::INFINITY; ROW];
+        self.store(v, &mut lanes);
+        lanes[..Self::LANES]
+            .iter()
+            .fold(f32::INFINITY, |least, lane| if *lane < least { *lane } else { least })
+    }
+
+    /// The greatest lane, of numbers.
+    #[inline(always)]
+    fn most(self, v: Self::F) -> f32 {
+        let mut lanes = [f32::NEG_INFINITY; ROW];
+        self.store(v, &mut lanes);
+        lanes[..Self::LANES]
+            .iter()
+            .fold(f32::NEG_INFINITY, |most, lane| if *lane > most { *lane } else { most })
     }
 }
 

@@ -20,6 +20,51 @@ pub struct Path {
     pub slope: [f32; 2],
 }
 
+/// What contains paths through three maps of [`SLICES`] slices of unit thickness. Along one axis it reaches from `low` to `high`; on each
+/// of the other two, at a place between, from one straight line to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hull {
+    /// Where it begins on the first axis.
+    pub low: f32,
+    /// Where it ends on the first axis, beyond `low`.
+    pub high: f32,
+    /// For each of the other axes the lower and the upper line: where it is at `low`, and how it moves for each slice of the first axis.
+    pub sides: [[[f32; 2]; 2]; 2],
+}
+
+/// Union over the slices of the first axis of its word & (all words that the hull touches on the second) & (those on the third).
+#[inline(always)]
+pub(super) fn hull_union(maps: [&[u64; SLICES]; 3], hull: &Hull) -> u64 {
+    let mut union = 0;
+    for (slice, word) in maps[0].iter().enumerate() {
+        let (begin, end) = (slice as f32, slice as f32 + 1.0);
+        if end <= hull.low || begin > hull.high {
+            continue;
+        }
+        let (left, right) = (begin.max(hull.low) - hull.low, end.min(hull.high) - hull.low);
+        let [a, b] = [0, 1];
+        union |= word
+            & within(maps[1], &hull.sides[a], left, right)
+            & within(maps[2], &hull.sides[b], left, right);
+    }
+    union
+}
+
+/// The words between two lines, from one place to another.
+#[inline(always)]
+fn within(map: &[u64; SLICES], [low, high]: &[[f32; 2]; 2], left: f32, right: f32) -> u64 {
+    let near = (low[0] + low[1] * left).min(low[0] + low[1] * right);
+    let far = (high[0] + high[1] * left).max(high[0] + high[1] * right);
+    if far < -BESIDE || near > SLICES as f32 + BESIDE {
+        return 0;
+    }
+    let (first, last) = (clamped(near), clamped(far));
+    map[first..=last.max(first)].iter().fold(0, |union, word| union | word)
+}
+
+/// What is so many slices or more beside the maps meets none of their objects, rounding included.
+pub(super) const BESIDE: f32 = 1.0;
+
 /// Union over the slices of the long axis of its word & (the at most two words touched on
 /// the second axis) & (those on the third).
 #[inline(always)]

@@ -57,7 +57,9 @@ impl Task for Everything {
             }
             let quads: [[f32; 4]; ROW] =
                 std::array::from_fn(|i| std::array::from_fn(|k| (4 * (i + at) + k) as f32));
-            for column in s.load_quads(&std::array::from_fn(|i| &quads[i])) {
+            let columns = s.load_quads(&std::array::from_fn(|i| &quads[i]));
+            assert_eq!(s.store_quads(columns)[..S::LANES], quads[..S::LANES]);
+            for column in columns {
                 s.store(column, &mut floats);
                 out.extend(floats[..S::LANES].iter().map(|l| l.to_bits()));
             }
@@ -129,7 +131,7 @@ fn levels_go_by_name() {
 }
 
 mod paths {
-    use super::super::path::{Path, SLICES};
+    use super::super::path::{Hull, Path, SLICES};
     use super::*;
     use proptest::prelude::*;
 
@@ -183,6 +185,51 @@ mod paths {
             prop_assert_eq!(reference & !near, 0);
             for level in Level::here() {
                 prop_assert_eq!(level.run(Union(&maps, &path)), reference, "{:?}", level);
+            }
+        }
+    }
+
+    struct Within<'a>(&'a [[u64; SLICES]; 3], &'a Hull);
+
+    impl Task for Within<'_> {
+        type Out = u64;
+
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> u64 {
+            let [a, b, c] = self.0;
+            s.hull_union([a, b, c], self.1)
+        }
+    }
+
+    proptest! {
+        /// Every cell of a point between the lines of a hull contributes its bits, at every level.
+        #[test]
+        fn the_union_holds_the_cells_of_the_hull(
+            maps in prop::array::uniform3(prop::array::uniform8(any::<u64>())),
+            low in -3f32..8.0,
+            length in 0.01f32..12.0,
+            lines in prop::array::uniform2((-4f32..9.0, 0f32..5.0, -1.5f32..1.5, -1.5f32..1.5)),
+            points in prop::collection::vec((0f32..1.0, 0f32..1.0, 0f32..1.0), 50),
+        ) {
+            let sides = lines.map(|(start, width, slope, other)| [[start, slope], [start + width, other]]);
+            let hull = Hull { low, high: low + length, sides };
+            let reference = Within(&maps, &hull).run(Portable);
+            for level in Level::here() {
+                prop_assert_eq!(level.run(Within(&maps, &hull)), reference, "{:?}", level);
+            }
+            for (along, a, b) in points {
+                let left = along * length;
+                let at = |side: usize, share: f32| {
+                    let [near, far] = hull.sides[side].map(|[start, slope]| start + slope * left);
+                    near + share * (far - near).max(0.0)
+                };
+                let point = [low + left, at(0, a), at(1, b)];
+                // Beside the lines' rounding, and where they don't cross.
+                let inside = |p: &f32| (0.0..SLICES as f32).contains(p) && (p - p.round()).abs() > 1e-3;
+                if point.iter().all(inside) && (0..2).all(|side| at(side, 1.0) > at(side, 0.0)) {
+                    let bits = (0..3).fold(u64::MAX, |bits, axis| bits & maps[axis][point[axis] as usize]);
+                    prop_assert_eq!(bits & !reference, 0, "{:?} in {:?}", point, hull);
+                }
             }
         }
     }

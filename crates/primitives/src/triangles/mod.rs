@@ -21,7 +21,7 @@ use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
 use bounds::TriangleBounds;
 use frame::Frame;
 use lanes::packet::{NearestPacket, Packet, Pairs, Vec3Lanes};
-use lanes::{Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared};
 use lanes::{ROW, Row, Simd};
 use search::{Candidates, PreparedSlot, Search};
 use std::marker::PhantomData;
@@ -175,6 +175,9 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     /// [`TriangleBlocks::corners`] for one that isn't unpacked.
     #[inline(always)]
     fn corners_of(&self, slot: usize) -> Corners {
+        if self.in_place {
+            return self.triangles.corners(self.ids.get(slot));
+        }
         match K::Storage::kept(self.units(slot)) {
             Some(group) => self.corners(Packed::new(group, slot % ROW), slot),
             None => self.triangles.corners(self.ids.get(slot)),
@@ -214,6 +217,12 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline]
     fn object(&self, slot: usize) -> u32 {
         self.ids.get(slot)
+    }
+
+    #[inline(always)]
+    fn prefetch(&self, block: usize) {
+        let each = BLOCK / ROW * K::Storage::units::<K>();
+        lanes::prefetch(self.units.get(block * each..(block + 1) * each).unwrap_or_default());
     }
 
     #[inline(always)]
@@ -270,7 +279,7 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         if self.in_place {
-            return self.packet_in_place(s, slot, &rays.rays, best);
+            return self.packet_in_place(s, slot, rays, best);
         }
         K::Search::packet(self, s, slot, rays, best);
     }
