@@ -20,7 +20,7 @@ const SHORT_STREAM: usize = 1 << 14;
 /// From this many blocks on streams are long: in short ones too few rays would reach each block.
 const MANY_BLOCKS: usize = 1 << 11;
 
-/// So many objects are tested with every ray, sooner than rays are prepared for anything else.
+/// So many objects in one block are tested with every ray, sooner than rays are prepared for anything else.
 const FEW: usize = 8;
 
 /// Rays that wait to visit a node or a block.
@@ -50,7 +50,7 @@ impl<O: PackedObjects> General<O> {
         room: &mut Room<<O::Blocks as Blocks>::One>,
         count: &mut C,
     ) {
-        if self.len <= FEW {
+        if self.len <= FEW && self.maps.len() <= 1 {
             return self.test_all::<S, C, ANY>(s, rays, room, count);
         }
         let Begun { octants, top } = self.begin(s, rays, room);
