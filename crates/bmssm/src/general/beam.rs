@@ -154,11 +154,11 @@ impl Beam {
         near.start[3] = LIMIT;
         far.start[3] = LIMIT;
         let mut range = Range::NONE;
-        for axis in 0..3 {
+        for (axis, start) in start.into_iter().enumerate() {
             let (mut starts, mut inverses) = (Range::NONE, Range::NONE);
             for at in (0..ROW).step_by(S::LANES) {
                 let on = s.mask(on >> at);
-                let begin = s.select(on, s.load(&segments.start[axis][at..]), s.splat(start[axis]));
+                let begin = s.select(on, s.load(&segments.start[axis][at..]), s.splat(start));
                 let inverse =
                     s.select(on, s.load(&ways.inverse[axis][at..]), s.splat(ways.inverse[axis][lane]));
                 starts.gather(s, begin);
