@@ -2,7 +2,7 @@
 //! Transactions on Graphics 24(3), 2005; intervals in place of frusta).
 
 use super::maps::BlockMaps;
-use super::ready::{LIMIT, Traveller, Way, WayRows};
+use super::traveller::{LIMIT, Traveller, Way, WayRows};
 use accel::Nearest;
 use accel::grid::{RayRows, SegmentRows};
 use lanes::packet::{NearestPacket, Packet};

@@ -2,8 +2,9 @@
 
 use super::General;
 use super::beam::{Beam, BeamRays};
-use super::ready::{LIMIT, Ready, Room, Traveller, rows};
-use super::stream::{Waiting, visit};
+use super::ready::{Ready, Room, Waiting, rows};
+use super::stream::visit;
+use super::traveller::{LIMIT, Traveller};
 use super::tree::Node;
 use accel::grid::Span;
 use accel::{Count, Nearest, Ray};

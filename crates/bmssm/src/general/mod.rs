@@ -10,6 +10,7 @@ mod ready;
 mod split;
 mod stream;
 mod trace;
+mod traveller;
 mod tree;
 mod unit_box;
 

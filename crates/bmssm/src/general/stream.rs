@@ -4,15 +4,13 @@
 
 use super::General;
 use super::maps::BlockMaps;
-use super::ready::{Begun, Room, Traveller, Way};
+use super::ready::{Begun, Room, STREAM, Waiting};
+use super::traveller::{Traveller, Way};
 use super::tree::{Node, WIDTH};
 use accel::{Count, Nearest, Ray};
 use lanes::packet::{Packet, Pairs};
 use lanes::path::Path;
 use lanes::{Blocks, PackedObjects, ROW, SHARE, Simd, prefetch};
-
-/// Rays of a stream at most: as many as short numbers tell apart.
-pub(super) const STREAM: usize = 1 << 16;
 
 /// Rays of a stream over few blocks, whose rays fit into a cache of the second level.
 const SHORT_STREAM: usize = 1 << 14;
@@ -22,18 +20,6 @@ const MANY_BLOCKS: usize = 1 << 11;
 
 /// So many objects in one block are tested with every ray, sooner than rays are prepared for anything else.
 const FEW: usize = 8;
-
-/// Rays that wait to visit a node or a block.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Waiting {
-    /// As in [`Node::children`].
-    pub(super) what: u32,
-    /// Where their numbers begin in the lists, and how many they are.
-    pub(super) first: u32,
-    pub(super) len: u32,
-    /// Up to where the lists are in use.
-    pub(super) top: u32,
-}
 
 impl<O: PackedObjects> General<O> {
     /// Rays that are best taken together.
@@ -193,9 +179,6 @@ impl<O: PackedObjects> General<O> {
         }
     }
 }
-
-/// Pairs of all rays of a packet and all objects of a block, and as many again to be written at once.
-pub(super) const PAIRS: usize = (ROW + 1) * lanes::BLOCK;
 
 /// Sorts the rays to the children that they meet, and puts these on the stack, the one that they enter first on top.
 #[inline(always)]

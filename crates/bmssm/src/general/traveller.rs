@@ -1,0 +1,94 @@
+//! The ways of rays through the scene.
+
+use super::trace::LEAST;
+use accel::grid::{RayRows, SegmentRows};
+use accel::tolerance::LIMIT_S;
+use lanes::{ROW, Simd};
+
+/// A ray's way in unit coordinates, as nodes and blocks need it.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct Traveller {
+    /// Where it begins, and the place up to which objects must be looked at; −1 when the ray is done.
+    pub start: [f32; 4],
+    /// One over each component of the way, and nothing.
+    pub inverse: [f32; 4],
+}
+
+/// Rays as nodes see them.
+pub(super) trait Way {
+    /// By which they enter boxes; its limit is theirs.
+    fn near(&self) -> &Traveller;
+    /// By which they leave boxes.
+    fn far(&self) -> &Traveller;
+}
+
+impl Way for Traveller {
+    #[inline(always)]
+    fn near(&self) -> &Traveller {
+        self
+    }
+    #[inline(always)]
+    fn far(&self) -> &Traveller {
+        self
+    }
+}
+
+impl Traveller {
+    pub const DONE: f32 = -1.0;
+
+    pub const NONE: Self = Self { start: [0.0; 4], inverse: [0.0; 4] };
+}
+
+/// The ways of rays beside their segments.
+pub(super) struct WayRows {
+    pub inverse: [[f32; ROW]; 3],
+    /// Which of the rays go backwards on each axis, as bits.
+    pub backwards: [u32; 3],
+}
+
+impl WayRows {
+    #[inline(always)]
+    pub fn of<S: Simd>(s: S, rows: &RayRows<ROW>, segments: &SegmentRows<ROW>) -> Self {
+        let mut ways = Self { inverse: [[0.0; ROW]; 3], backwards: [0; 3] };
+        let zero = s.splat(0.0);
+        for axis in 0..3 {
+            for at in (0..ROW).step_by(S::LANES) {
+                // Where a component is too small to tell, the direction's sign is as good as any.
+                let backwards = s.lt(s.load(&rows.direction[axis][at..]), zero);
+                let least = s.select(backwards, s.splat(-LEAST), s.splat(LEAST));
+                let delta = s.load(&segments.delta[axis][at..]);
+                let long = s.le(s.splat(LEAST), s.abs(delta));
+                let delta = s.select(long, delta, least);
+                s.store(s.div(s.splat(1.0), delta), &mut ways.inverse[axis][at..]);
+                ways.backwards[axis] |= s.bits(backwards) << at;
+            }
+        }
+        ways
+    }
+
+    #[inline(always)]
+    pub fn octant(&self, lane: usize) -> u32 {
+        let [x, y, z] = self.backwards;
+        (x >> lane & 1) | (y >> lane & 1) << 1 | (z >> lane & 1) << 2
+    }
+
+    #[inline(always)]
+    pub fn store<S: Simd>(&self, s: S, segments: &SegmentRows<ROW>, to: &mut [Traveller]) {
+        let limit = s.splat(LIMIT);
+        for at in (0..ROW).step_by(S::LANES) {
+            let (mut start, mut inverse) = ([limit; 4], [limit; 4]);
+            for axis in 0..3 {
+                inverse[axis] = s.load(&self.inverse[axis][at..]);
+                start[axis] = s.load(&segments.start[axis][at..]);
+            }
+            let (start, inverse) = (s.store_quads(start), s.store_quads(inverse));
+            for (to, (start, inverse)) in to[at..at + S::LANES].iter_mut().zip(start.iter().zip(&inverse)) {
+                *to = Traveller { start: *start, inverse: *inverse };
+            }
+        }
+    }
+}
+
+/// The place up to which objects must be looked at while nothing is hit.
+pub(super) const LIMIT: f32 = 1.0 + LIMIT_S as f32;
