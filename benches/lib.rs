@@ -65,7 +65,7 @@ pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 pub fn introduce(scene: &Scene) {
     let (objects, kind) = (scene.geometry.len(), scene.geometry.kind());
     println!("{}: {objects} {kind}", scene.id);
-    for row in memory_rows(scene, &[16, 64]) {
+    for row in memory_rows(scene, &[16, 64], accel::Cancel::NEVER).into_iter().flatten() {
         let built = |layout: Option<Layout>| layout.map_or("–".to_owned(), |l| format!("{:.3}", l.ratio()));
         println!(
             "  ν_mem at N = {}: {:.3} by formula, {} for the paper's layouts as built, {} for the compact ones",

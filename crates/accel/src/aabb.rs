@@ -1,6 +1,7 @@
 //! Axis-aligned boxes.
 
 use crate::Vec3;
+use crate::far::{self, Line};
 
 /// A closed axis-aligned box. Empty when a minimum exceeds its maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,32 +70,20 @@ impl Aabb {
     /// The part of the line `origin + t·direction` inside the closed box as a
     /// range of t, computed in `f64`; `None` where they don't meet.
     ///
-    /// A direction component of ±0 asks whether the origin lies between the two
-    /// planes; 0·∞ therefore never arises.
+    /// It is right from any distance, see [`crate::far`].
     #[inline(always)]
     pub fn overlap(&self, origin: Vec3, direction: Vec3) -> Option<(f64, f64)> {
-        let mut near = f64::NEG_INFINITY;
-        let mut far = f64::INFINITY;
-        for axis in 0..3 {
-            let o = f64::from(origin[axis]);
-            let d = f64::from(direction[axis]);
-            let lo = f64::from(self.min[axis]) - o;
-            let hi = f64::from(self.max[axis]) - o;
-            if d == 0.0 {
-                if lo > 0.0 || hi < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let inverse = 1.0 / d;
-            let (a, b) = (lo * inverse, hi * inverse);
-            let (least, most) = if a < b { (a, b) } else { (b, a) };
-            near = if least > near { least } else { near };
-            far = if most < far { most } else { far };
+        let (near, far) = far::range([self.min, self.max], origin.to_array().map(f64::from), direction);
+        if far::is_brief(near, far, UNDECIDED) {
+            let Line { moved, near, far, .. } = Line::moved([self.min, self.max], origin, direction);
+            return (near <= far).then_some((moved + near, moved + far));
         }
         (near <= far).then_some((near, far))
     }
 }
+
+/// What [`far::range`] tells apart by more than this relatively, it tells for certain: 2^11 times its rounding.
+const UNDECIDED: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// [`f32::next_down`] of a finite number, without branches.
 #[inline(always)]

@@ -5,8 +5,11 @@
 //! more than the rounding of a walk through the grid ([`crate::dda`]): whatever cell
 //! the exact ray meets a box in, the walk visits one in which the box is registered.
 
+use crate::far::{BRIEFLY, Line, is_brief};
 pub use crate::tolerance::GRID_MARGIN as MARGIN;
-use crate::tolerance::{LIMIT_S, LIMIT_T, T_SLACK};
+#[cfg(doc)]
+use crate::tolerance::T_SLACK;
+use crate::tolerance::{LIMIT_S, LIMIT_T, RANGE_SLACK, TOUCH};
 use crate::{Aabb, Ray, Vec3};
 use std::ops::Range;
 
@@ -99,25 +102,25 @@ impl Grid {
     /// The part of the ray inside the grid and its own range of t, or `None` where there is none.
     #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> Option<Segment> {
-        let (near, far) = self.bounds.overlap(ray.origin, ray.direction)?;
-        let t_start = near.max(f64::from(ray.t_min));
-        let t_end = far.min(f64::from(ray.t_max));
-        // A hit may lie a little outside of its box's range of t.
-        let slack = T_SLACK * t_start.abs().max(t_end.abs());
+        let line = Line::through([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
+        let (t_min, t_max) = within_reach(f64::from(ray.t_min), f64::from(ray.t_max));
+        let t_start = line.near.max(t_min - line.moved);
+        let t_end = line.far.min(t_max - line.moved);
+        let touch = TOUCH * t_start.abs().max(t_end.abs());
         // Without end or beginning is only the range of a ray without direction.
-        if t_start > t_end + slack || !(t_start + t_end).is_finite() {
+        if t_start > t_end + touch || !(t_start + t_end).is_finite() {
             return None;
         }
         let t_end = t_end.max(t_start);
         let (mut start, mut delta) = (Vec3::ZERO, Vec3::ZERO);
         for axis in 0..3 {
-            let (origin, direction) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]));
+            let (origin, direction) = (line.origin[axis], f64::from(ray.direction[axis]));
             let from = self.unit(axis, origin + t_start * direction).clamp(0.0, 1.0);
             let to = self.unit(axis, origin + t_end * direction).clamp(0.0, 1.0);
             start[axis] = from as f32;
             delta[axis] = (to - from) as f32;
         }
-        Some(Segment { start, delta, span: Span { t_start, t_span: t_end - t_start } })
+        Some(Segment { start, delta, span: Span { t_start: line.moved + t_start, t_span: t_end - t_start } })
     }
 
     /// [`Grid::clip`] for several rays at once, with the same results.
@@ -143,6 +146,11 @@ impl Grid {
                 far[i] = if most < far[i] { most } else { far[i] };
             }
         }
+        let (mut brief, mut any_brief) = ([false; N], false);
+        for i in 0..N {
+            brief[i] = is_brief(near[i], far[i], BRIEFLY);
+            any_brief |= brief[i];
+        }
         let mut rows = SegmentRows {
             start: [[0.0; N]; 3],
             delta: [[0.0; N]; 3],
@@ -152,12 +160,12 @@ impl Grid {
         };
         let mut t_ends = [0.0; N];
         for i in 0..N {
-            let (t_min, t_max) = (f64::from(rays.t_min[i]), f64::from(rays.t_max[i]));
+            let (t_min, t_max) = within_reach(f64::from(rays.t_min[i]), f64::from(rays.t_max[i]));
             let t_start = if near[i] > t_min { near[i] } else { t_min };
             let t_end = if far[i] < t_max { far[i] } else { t_max };
             let (a, b) = (t_start.abs(), t_end.abs());
-            let slack = T_SLACK * if a > b { a } else { b };
-            rows.met[i] = (near[i] <= far[i]) & (t_start <= t_end + slack) & (t_start + t_end).is_finite();
+            let touch = TOUCH * if a > b { a } else { b };
+            rows.met[i] = (t_start <= t_end + touch) & (t_start + t_end).is_finite();
             rows.t_start[i] = t_start;
             t_ends[i] = if t_end > t_start { t_end } else { t_start };
             rows.t_span[i] = t_ends[i] - t_start;
@@ -172,8 +180,33 @@ impl Grid {
                 rows.delta[axis][i] = (to - from) as f32;
             }
         }
+        if any_brief {
+            self.clip_brief(rays, &brief, &mut rows);
+        }
         rows
     }
+
+    /// Clips the rays marked one by one.
+    #[cold]
+    fn clip_brief<const N: usize>(&self, rays: &RayRows<N>, which: &[bool; N], rows: &mut SegmentRows<N>) {
+        for i in (0..N).filter(|i| which[*i]) {
+            let segment = self.clip(&rays.ray(i));
+            rows.met[i] = segment.is_some();
+            if let Some(Segment { start, delta, span }) = segment {
+                for axis in 0..3 {
+                    (rows.start[axis][i], rows.delta[axis][i]) = (start[axis], delta[axis]);
+                }
+                (rows.t_start[i], rows.t_span[i]) = (span.t_start, span.t_span);
+            }
+        }
+    }
+}
+
+/// The range of t in which a box may begin or end whose hit lies in this range: a hit may lie outside of its object's
+/// box by [`T_SLACK`].
+#[inline(always)]
+pub fn within_reach(t_min: f64, t_max: f64) -> (f64, f64) {
+    (t_min - RANGE_SLACK * t_min.abs(), t_max + RANGE_SLACK * t_max.abs())
 }
 
 #[inline(always)]
@@ -213,6 +246,13 @@ impl<const N: usize> RayRows<N> {
             (rows.t_min[lane], rows.t_max[lane]) = (ray.t_min, ray.t_max);
         }
         rows
+    }
+
+    /// One of them.
+    fn ray(&self, lane: usize) -> Ray {
+        let at = |rows: &[[f32; N]; 3]| Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane]);
+        let (t_min, t_max) = (self.t_min[lane], self.t_max[lane]);
+        Ray { origin: at(&self.origin), direction: at(&self.direction), t_min, t_max }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Geometry as others hand it over: what it may look like, and what is wrong with it.
 
 use crate::parallel::prelude::*;
-use crate::tolerance::pad_of;
-use crate::{Aabb, MeshRef, Ray, Vec3};
+use crate::tolerance::{pad_of, reach_of};
+use crate::{Aabb, MeshRef, Ray, RayError, Vec3};
 use std::borrow::Cow;
 
 /// Why geometry can't be traced.
@@ -121,6 +121,20 @@ pub fn check_extent(bounds: Aabb) -> Result<(), InputError> {
     Err(InputError::Extent { bounds })
 }
 
+/// Whether structures promise the right answer for this ray in a scene with these bounds: it is one, and does not begin farther
+/// away than [`crate::tolerance::FAR`].
+///
+/// # Errors
+/// Says which part of the ray is unusable.
+pub fn check_ray(scene: &Aabb, ray: &Ray) -> Result<(), RayError> {
+    ray.validate()?;
+    let away = (ray.origin.as_dvec3() - scene.center().as_dvec3()).abs().max_element();
+    if !scene.is_empty() && away > reach_of(scene) {
+        return Err(RayError::Far(ray.origin));
+    }
+    Ok(())
+}
+
 /// Rays that structures accept: those that are none (see [`Ray::validate`]) have become one that hits nothing.
 pub fn traceable(rays: &[Ray]) -> Cow<'_, [Ray]> {
     let sound = |ray: &Ray| ray.validate().is_ok();
@@ -167,5 +181,13 @@ mod tests {
         let traceable = traceable(&rays);
         assert_eq!(traceable[0], rays[0]);
         assert!(traceable[1].validate().is_ok() && traceable[1].t_max < traceable[1].t_min);
+    }
+
+    #[test]
+    fn origins_too_far_from_a_scene_are_named() {
+        let scene = Aabb { min: Vec3::splat(-1e-20), max: Vec3::splat(1e-20) };
+        let from = |x: f32| check_ray(&scene, &Ray::new(Vec3::X * x, Vec3::NEG_X));
+        assert_eq!((from(1e9), from(1e12)), (Ok(()), Err(RayError::Far(Vec3::X * 1e12))));
+        assert_eq!(check_ray(&Aabb::EMPTY, &Ray::new(Vec3::X * f32::MAX, Vec3::NEG_X)), Ok(()));
     }
 }

@@ -9,7 +9,9 @@
 mod aabb;
 mod any_rays;
 mod camera;
+mod cancel;
 pub mod dda;
+pub mod far;
 mod footprint;
 pub mod grid;
 pub mod input;
@@ -28,6 +30,7 @@ pub mod tolerance;
 
 pub use aabb::Aabb;
 pub use any_rays::AnyRays;
+pub use cancel::Cancel;
 pub use footprint::{Footprint, Group, Part, vec_bytes};
 pub use glam::Vec3;
 pub use input::{InputError, Position};

@@ -2,6 +2,7 @@
 
 use crate::parallel::prelude::*;
 use crate::parallel::repeat_n;
+use std::path::{Path, PathBuf};
 
 /// A vector of equal values, written by all threads of the current pool: its memory is new to the process as a rule, and the
 /// system clears each page when it is first written to.
@@ -34,15 +35,58 @@ const UNKNOWN: u128 = 16 << 30;
 /// Bytes that can be allocated now without swapping: the default limit that builders hold
 /// their needs against before they allocate (see [`crate::BuildError::TooLarge`]).
 ///
-/// Read from `/proc/meminfo`; 16 GiB where there is none.
+/// The least of what the system has (`/proc/meminfo`), what the process's control groups still allow (a container's
+/// limit, of versions 1 and 2), and what is left of its address space (`ulimit -v`); 16 GiB where nothing tells.
 pub fn available_memory() -> u128 {
-    std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| available(&text)).unwrap_or(UNKNOWN)
+    let read = |path: &str| std::fs::read_to_string(path).ok();
+    let system = read("/proc/meminfo").and_then(|text| available(&text));
+    let limits = read("/proc/self/limits").zip(read("/proc/self/status"));
+    let address_space = limits.and_then(|(limits, status)| address_space(&limits, &status));
+    let groups = read("/proc/self/cgroup").and_then(|groups| of_groups(&groups, Path::new("/sys/fs/cgroup")));
+    [system, address_space, groups].into_iter().flatten().min().unwrap_or(UNKNOWN)
 }
 
 fn available(meminfo: &str) -> Option<u128> {
-    let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    field(meminfo, "MemAvailable:")
+}
+
+/// A line `name 12 kB` in bytes.
+fn field(text: &str, name: &str) -> Option<u128> {
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     let kibibytes: u128 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes * 1024)
+}
+
+fn address_space(limits: &str, status: &str) -> Option<u128> {
+    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    let limit: u128 = line.split_whitespace().next()?.parse().ok()?;
+    Some(limit.saturating_sub(field(status, "VmSize:")?))
+}
+
+/// What the groups named in `/proc/self/cgroup` and all above them still allow; `root` is where they are mounted.
+fn of_groups(groups: &str, root: &Path) -> Option<u128> {
+    let left = groups.lines().filter_map(|line| {
+        let mut parts = line.splitn(3, ':').skip(1);
+        let (controllers, path) = (parts.next()?, parts.next()?.trim_start_matches('/'));
+        match controllers {
+            "" => above(root, path, "memory.max", "memory.current"),
+            _ if controllers.split(',').any(|name| name == "memory") => {
+                above(&root.join("memory"), path, "memory.limit_in_bytes", "memory.usage_in_bytes")
+            }
+            _ => None,
+        }
+    });
+    left.min()
+}
+
+/// The least that a group and those above it allow. In a container the path may be that of the host, and the group is
+/// mounted as the root.
+fn above(root: &Path, path: &str, limit: &str, used: &str) -> Option<u128> {
+    let number = |file: PathBuf| std::fs::read_to_string(file).ok()?.trim().parse::<u128>().ok();
+    let inside = root.join(path);
+    let groups = inside.ancestors().take_while(|group| group.starts_with(root));
+    let left = |group: &Path| Some(number(group.join(limit))?.saturating_sub(number(group.join(used))?));
+    groups.filter_map(left).min()
 }
 
 #[cfg(test)]
@@ -67,5 +111,36 @@ mod tests {
         assert_eq!(available(text), Some(1 << 20));
         assert_eq!(available("MemTotal: 1 kB\n"), None);
         assert!(available_memory() > 0);
+    }
+
+    #[test]
+    fn the_limits_of_groups_are_found_up_to_the_root() {
+        let root = std::env::temp_dir().join(format!("rayscale-groups-{}", std::process::id()));
+        let inner = root.join("pod").join("box");
+        std::fs::create_dir_all(&inner).unwrap();
+        let write = |folder: &Path, max: &str, used: &str| {
+            std::fs::write(folder.join("memory.max"), max).unwrap();
+            std::fs::write(folder.join("memory.current"), used).unwrap();
+        };
+        write(&inner, "max\n", "5\n");
+        write(&root.join("pod"), "3000\n", "1000\n");
+        assert_eq!(of_groups("0::/pod/box\n", &root), Some(2000));
+        write(&inner, "700\n", "900\n");
+        assert_eq!(of_groups("0::/pod/box\n", &root), Some(0), "more is used than there may be");
+        write(&root, "50\n", "8\n");
+        assert_eq!(
+            of_groups("0::/of/the/host\n", &root),
+            Some(42),
+            "a container sees its own group as the root"
+        );
+        assert_eq!(of_groups("4:cpu:/pod\n", &root), None);
+        std::fs::remove_dir_all(&root).unwrap();
+    }
+
+    #[test]
+    fn the_address_space_that_is_left_is_a_limit() {
+        let limits = "Max address space         4000000000           unlimited            bytes     \n";
+        assert_eq!(address_space(limits, "VmSize:\t 1000000 kB\n"), Some(4_000_000_000 - 1_024_000_000));
+        assert_eq!(address_space("Max address space   unlimited  unlimited bytes\n", "VmSize: 1 kB\n"), None);
     }
 }

@@ -69,6 +69,9 @@ pub enum RayError {
     /// No direction at all.
     #[error("the ray's direction is zero")]
     ZeroDirection,
+    /// An origin farther from the scene than structures are right for.
+    #[error("the ray's origin {0} is more than 2^100 times as far from the scene as the scene is long")]
+    Far(Vec3),
     /// NaN in the range, or a range that begins at infinity or minus infinity: t there names no point.
     #[error("the ray's range [{0}, {1}] does not begin at a finite t, or has no end")]
     Range(f32, f32),

@@ -1,7 +1,7 @@
 //! The contract of acceleration structures.
 
 use crate::parallel::for_each_chunk;
-use crate::{Footprint, Hit, Ray, RaySet, Scene};
+use crate::{Cancel, Footprint, Hit, Ray, RaySet, Scene};
 
 /// A built acceleration structure.
 ///
@@ -105,6 +105,23 @@ pub trait Builder: Send + Sync {
     /// # Errors
     /// Where the structure can't serve this scene or need, or its memory would not fit.
     fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError>;
+
+    /// [`Builder::build`] that gives up soon after it is asked to. By default it looks before building and after;
+    /// builders that may take long look in between.
+    ///
+    /// # Errors
+    /// As [`Builder::build`], and [`BuildError::Cancelled`].
+    fn build_unless<'s>(
+        &self,
+        scene: &'s Scene,
+        need: &Need,
+        cancel: Cancel,
+    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+        cancel.check(self.id())?;
+        let built = self.build(scene, need)?;
+        cancel.check(self.id())?;
+        Ok(built)
+    }
 }
 
 /// Why a structure was not built.
@@ -144,6 +161,12 @@ pub enum BuildError {
         /// What is wrong with it.
         problem: String,
     },
+    /// The build was asked to end before it was done.
+    #[error("{structure}: the build was cancelled")]
+    Cancelled {
+        /// The structure's id.
+        structure: String,
+    },
     /// The library behind the structure failed.
     #[error("{structure}: {message}")]
     Library {
@@ -152,6 +175,19 @@ pub enum BuildError {
         /// What the library said.
         message: String,
     },
+}
+
+impl Cancel<'_> {
+    /// An error if the build of this structure is to end.
+    ///
+    /// # Errors
+    /// [`BuildError::Cancelled`]
+    pub fn check(&self, structure: &str) -> Result<(), BuildError> {
+        if self.is_asked() {
+            return Err(BuildError::Cancelled { structure: structure.into() });
+        }
+        Ok(())
+    }
 }
 
 /// Counts steps of a traversal; [`NoCount`] compiles to nothing.

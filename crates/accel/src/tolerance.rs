@@ -29,6 +29,11 @@ const _: () = assert!(4.0 * 15.0 * ROUNDING <= PAD as f64 / 2.0);
 pub const T_SLACK: f64 = 1.0 / (1 << 20) as f64;
 const _: () = assert!(T_SLACK >= 16.0 * ROUNDING);
 
+/// What a structure adds to the ends of a ray's range of t: the slack of a hit at these ends (3), and what that is
+/// rounded by.
+pub const RANGE_SLACK: f64 = T_SLACK * (1.0 + ROUNDING);
+const _: () = assert!(RANGE_SLACK > T_SLACK);
+
 /// **4.** Structures register padded boxes (2) wider by this part of the grid's extent on each axis. In these units a
 /// segment's two ends, its steps and the planes it meets are each off by ε or 2 ε, some eight of them: this is eight
 /// times as much, so whatever cell the exact ray meets the box in, the walk visits one in which it is registered.
@@ -94,6 +99,19 @@ const _: () = assert!(PROJECTION >= 2.0 * 8.0 * DOUBLE_ROUNDING);
 /// been rounded up before.
 pub const BALL: f64 = 1.0 / (1u64 << 46) as f64;
 const _: () = assert!(BALL >= 4.0 * 2.0 * 10.0 * DOUBLE_ROUNDING);
+
+/// **16.** How far a ray's origin may be from the scene's centre on each axis, in E. No arithmetic ends there
+/// ([`crate::far`] moves origins without error): it is how far tests go.
+pub const FAR: f32 = (1u128 << 100) as f32;
+
+/// [`FAR`] of a scene with these bounds, which are not empty. A scene without extent counts as long as its coordinates are
+/// fine.
+pub fn reach_of(bounds: &Aabb) -> f64 {
+    let extent = f64::from(bounds.extent().max_element());
+    let fine = f64::from(bounds.min.abs().max(bounds.max.abs()).max_element()) * ROUNDING;
+    let length = if extent > 0.0 { extent } else { fine };
+    if length > 0.0 { length * f64::from(FAR) } else { f64::INFINITY }
+}
 
 /// The padding of objects' boxes in a scene with these bounds ([`PAD`]).
 pub fn pad_of(bounds: &Aabb) -> f32 {

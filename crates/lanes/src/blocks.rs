@@ -25,6 +25,11 @@ pub trait PackedObjects: Objects + Copy {
     /// Copies the objects into blocks: slot i holds object `order[i]`, or nothing for [`EMPTY_SLOT`].
     fn blocks(&self, order: &[u32]) -> Self::Blocks;
 
+    /// Bytes of the blocks of so many slots, about: what is held against a limit before they are made.
+    fn bytes_of_blocks(slots: usize) -> u128 {
+        slots as u128 * 4
+    }
+
     /// The same without a copy of geometry where there is a way: tests read the scene's own buffers, which costs time and saves memory.
     fn blocks_in_place(&self, order: &[u32]) -> Self::Blocks {
         self.blocks(order)

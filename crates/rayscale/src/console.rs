@@ -25,7 +25,7 @@ pub struct Global {
     #[arg(long, global = true)]
     pub json: bool,
     /// Threads to use; each verb's help says what it uses otherwise
-    #[arg(long, global = true, value_name = "N")]
+    #[arg(long, global = true, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
     /// The folder of scene definitions that go before the program's own; $RAYSCALE_SCENES or ./scenes otherwise
     #[arg(long = "scenes", global = true, value_name = "DIR")]
@@ -34,6 +34,14 @@ pub struct Global {
     /// data folder
     #[arg(long = "meshes", global = true, value_name = "DIR")]
     pub meshes_folder: Option<PathBuf>,
+}
+
+/// Threads that may be asked for: more than any machine has, and few enough for every system to give them at once.
+const MOST_THREADS: usize = 1024;
+
+fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= MOST_THREADS);
+    number.ok_or_else(|| format!("must be a number of threads from 1 to {MOST_THREADS}"))
 }
 
 /// The user's terminal, or the files that stand for it.

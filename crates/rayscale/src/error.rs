@@ -10,6 +10,7 @@ use scenes::near::near;
 use scenes::rays::RaysError;
 use std::fmt::Display;
 use std::io;
+use std::path::Path;
 
 /// Bad usage or input. All end with exit code 2.
 #[derive(Debug, thiserror::Error)]
@@ -71,6 +72,12 @@ impl From<PaperError> for Error {
             PaperError::Scene(error) => error.into(),
             PaperError::Build(error) => error.into(),
         }
+    }
+}
+
+impl From<rayon::ThreadPoolBuildError> for Error {
+    fn from(error: rayon::ThreadPoolBuildError) -> Self {
+        Self::usage(error.to_string(), "let the program have more threads")
     }
 }
 
@@ -149,6 +156,14 @@ impl Error {
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
     }
+}
+
+/// Says before work begins that its result would have no place.
+///
+/// # Errors
+/// [`Error::Io`] names it.
+pub fn check_place(path: &Path) -> Result<(), Error> {
+    harness::output::check(path).map_err(|error| Error::io(path.display(), error))
 }
 
 fn list(names: &[String]) -> String {

@@ -25,7 +25,8 @@ pub enum Outcome {
 
 /// The command line as given.
 pub fn command_line() -> String {
-    let words =
-        std::env::args().skip(1).map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
+    // Words that are no Unicode are paths; they are said as well as can be.
+    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    let words = words.map(|word| if word.contains(' ') { format!("'{word}'") } else { word });
     std::iter::once("rayscale".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }

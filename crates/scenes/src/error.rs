@@ -103,6 +103,16 @@ pub enum SceneError {
         /// What is wrong.
         reason: String,
     },
+    /// A mesh that memory does not suffice for.
+    #[error("{}: reading it takes about {bytes} bytes, more than the {available} there are", path.display())]
+    Memory {
+        /// The file.
+        path: PathBuf,
+        /// What it would take.
+        bytes: u128,
+        /// What there is.
+        available: u128,
+    },
     /// More vertices or triangles than 32-bit numbers name.
     #[error("{}: more than {most} {what}", path.display())]
     TooLarge {

@@ -1,10 +1,7 @@
 //! Scenes as Wavefront OBJ.
 
-use crate::error::SceneError;
 use accel::{Geometry, Scene, Vec3};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::io::{self, Write};
 
 /// Writes the scene as OBJ: triangles in object order, coordinates in the shortest form that
 /// reads back to the same bits. A box becomes six quads, so reading it back gives twelve
@@ -42,22 +39,4 @@ pub fn write_obj(scene: &Scene, mut out: impl Write) -> io::Result<()> {
 fn vertex(out: &mut impl Write, p: Vec3) -> io::Result<()> {
     // Debug prints the shortest digits that read back to the same bits, and keeps −0.
     writeln!(out, "v {:?} {:?} {:?}", p.x, p.y, p.z)
-}
-
-/// Writes the scene to `path`, whole or not at all.
-///
-/// # Errors
-/// [`SceneError::Io`] names the file.
-pub fn export_obj(scene: &Scene, path: &Path) -> Result<(), SceneError> {
-    let mut name = path.as_os_str().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = Path::new(&name);
-    let written = File::create(part)
-        .and_then(|file| write_obj(scene, BufWriter::new(file)))
-        .and_then(|()| fs::rename(part, path));
-    written.map_err(|source| {
-        // The first error is what matters; there may be nothing to remove.
-        let _ = fs::remove_file(part);
-        SceneError::Io { path: path.to_owned(), source }
-    })
 }

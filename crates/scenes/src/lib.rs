@@ -37,8 +37,9 @@ mod view;
 
 pub use catalog::{SceneInfo, broken_definitions, describe, list};
 pub use checksum::checksum;
+pub use definition::Definition;
 pub use error::SceneError;
-pub use export::{export_obj, write_obj};
+pub use export::write_obj;
 pub use folders::{Folders, look_in};
 pub use modifier::{Modifiers, Transform};
 pub use random::Random;

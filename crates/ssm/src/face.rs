@@ -1,8 +1,8 @@
 //! What others use: a structure for rays of any kind, and how it is built.
 
-use crate::compact::Ssm as Builder;
+use crate::compact::{Build, Ssm as Builder};
 use crate::resolution::Resolution;
-use accel::{AnyRays, BuildError, MeshRef, Objects, Position};
+use accel::{AnyRays, BuildError, Cancel, MeshRef, Objects, Position};
 use lanes::Level;
 use primitives::{Guarded, KernelId, WithObjects, with_triangles};
 use std::ops::Deref;
@@ -91,7 +91,7 @@ impl Options {
     ) -> Result<Ssm<'s>, BuildError> {
         self.check()?;
         let mesh = MeshRef::new(positions, triangles)?;
-        with_triangles(mesh, self.builder.settings.kernel, self.builder).map(AnyRays::new).map(Ssm)
+        with_triangles(mesh, self.builder.settings.kernel, self.way()).map(AnyRays::new).map(Ssm)
     }
 
     /// See [`Ssm::build_objects`].
@@ -100,7 +100,11 @@ impl Options {
     /// Those of [`Ssm::build_objects`], and [`BuildError::Setting`] for a density that is not above 0 and finite.
     pub fn build_objects<'s, O: Objects>(&self, objects: &'s O) -> Result<Ssm<'s>, BuildError> {
         self.check()?;
-        self.builder.objects(Guarded::new(objects)?).map(AnyRays::new).map(Ssm)
+        self.way().objects(Guarded::new(objects)?).map(AnyRays::new).map(Ssm)
+    }
+
+    fn way(&self) -> Build<'static> {
+        Build(self.builder, Cancel::NEVER)
     }
 
     fn check(&self) -> Result<(), BuildError> {

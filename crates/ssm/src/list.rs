@@ -1,13 +1,13 @@
 //! `ssm-list`: a counter, a pointer and a list of ids in each cell (Skala 1993, §5).
 
-use crate::register::{Limit, register};
+use crate::register::{Limit, Word, register};
 use crate::resolution::Resolution;
 use crate::settings::Settings;
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{
-    Accel, Bounds, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, Need, NoCount, Objects,
-    Ray, RaySet, Scene, for_each_ray,
+    Accel, Bounds, BuildError, Builder, Cancel, Count, Counters, Footprint, Hit, Nearest, Need, NoCount,
+    Objects, Ray, RaySet, Scene, for_each_ray,
 };
 use lanes::{PackedObjects, Simd, Task};
 use primitives::WithObjects;
@@ -50,20 +50,29 @@ impl Builder for SsmList {
         self.settings.display()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        primitives::with_objects(scene, self.settings.kernel, Build(self.settings))
+    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        self.build_unless(scene, need, Cancel::NEVER)
+    }
+
+    fn build_unless<'s>(
+        &self,
+        scene: &'s Scene,
+        _: &Need,
+        cancel: Cancel,
+    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+        primitives::with_objects(scene, self.settings.kernel, Build(self.settings, cancel))
     }
 }
 
-struct Build(Settings);
+struct Build<'c>(Settings, Cancel<'c>);
 
-impl<'s> WithObjects<'s> for Build {
+impl<'s> WithObjects<'s> for Build<'_> {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         if objects.len() <= usize::from(u16::MAX) {
-            Ok(Box::new(Built::<O, u16>::new(objects, &objects.shape(), &self.0)?))
+            Ok(Box::new(Built::<O, u16>::new(objects, &objects.shape(), &self.0, self.1)?))
         } else {
-            Ok(Box::new(Built::<O, u32>::new(objects, &objects.shape(), &self.0)?))
+            Ok(Box::new(Built::<O, u32>::new(objects, &objects.shape(), &self.0, self.1)?))
         }
     }
 }
@@ -109,21 +118,28 @@ struct Cells<I> {
 }
 
 impl<I: Id> Cells<I> {
-    fn new<B: Bounds>(objects: &B, settings: &Settings) -> Result<Self, BuildError> {
+    fn new<B: Bounds>(objects: &B, settings: &Settings, cancel: Cancel) -> Result<Self, BuildError> {
         let bounds = crate::resolution::bounds(objects, |_| true);
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, objects.len())?;
         let limit = Limit::of(ID, settings);
         let cells = limit.cells(u128::from(grid.cells()), (size_of::<I>() + 4) as u128)?;
+        // Ids of 2 bytes are made from those of 4, which is the most there is at a time.
+        let while_made = if size_of::<I>() < 4 { 4 } else { 0 };
         let bytes = |ids: u64| {
-            cells as u128 * (size_of::<I>() + 4) as u128 + u128::from(ids) * size_of::<I>() as u128
+            cells as u128 * (size_of::<I>() + 4) as u128
+                + u128::from(ids) * (size_of::<I>() + while_made) as u128
         };
-        let lists = register(cells, objects.len() as u32, limit, bytes, |object, found| {
+        let lists = register(cells, objects.len() as u32, limit, cancel, bytes, |object, found| {
             let bounds = objects.bounds(object);
             let [xs, ys, zs] = [0, 1, 2].map(|axis| grid.slices(axis, &bounds));
             for z in zs {
                 for y in ys.clone() {
                     let row = grid.index([0, y, z]) as u32;
-                    found.extend(xs.clone().map(|x| row + x));
+                    found.extend(
+                        xs.clone()
+                            .step_by(64)
+                            .map(|x| Word { first: row + x, bits: u64::MAX >> (64 - (xs.end - x).min(64)) }),
+                    );
                 }
             }
         })?;
@@ -137,8 +153,8 @@ impl<I: Id> Cells<I> {
 }
 
 impl<O: Objects, I: Id> Built<O, I> {
-    fn new(objects: O, shape: &impl Bounds, settings: &Settings) -> Result<Self, BuildError> {
-        Ok(Self { objects, settings: *settings, cells: Cells::new(shape, settings)? })
+    fn new(objects: O, shape: &impl Bounds, settings: &Settings, cancel: Cancel) -> Result<Self, BuildError> {
+        Ok(Self { objects, settings: *settings, cells: Cells::new(shape, settings, cancel)? })
     }
 
     #[inline(always)]

@@ -2,9 +2,9 @@
 //! threads of the current pool.
 
 use crate::settings::Settings;
-use accel::BuildError;
 use accel::parallel::prelude::*;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use accel::{BuildError, Cancel};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// For each cell a list of references, one list behind another.
 #[derive(Debug)]
@@ -37,6 +37,15 @@ impl Limit {
         Ok(cells as usize)
     }
 
+    /// What is left when so much is taken by something else.
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if that is more than there is.
+    pub fn less(self, taken: u128) -> Result<Self, BuildError> {
+        self.check(taken)?;
+        Ok(Self { bytes: self.bytes - taken, ..self })
+    }
+
     pub fn check(self, bytes: u128) -> Result<(), BuildError> {
         let Self { structure, bytes: limit } = self;
         if bytes <= limit {
@@ -46,19 +55,40 @@ impl Limit {
     }
 }
 
+/// Up to 64 cells in a row: the first one's number, and a bit for each that is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Word {
+    pub first: u32,
+    pub bits: u64,
+}
+
+impl Word {
+    fn cells(self) -> impl Iterator<Item = usize> {
+        let mut bits = self.bits;
+        std::iter::from_fn(move || {
+            (bits != 0).then(|| {
+                let place = bits.trailing_zeros();
+                bits &= bits - 1;
+                (self.first + place) as usize
+            })
+        })
+    }
+}
+
 /// Lists, for each of `cells` cells, those of the references `0..references` that
 /// `cells_of` puts there. `cells_of` appends cells to an empty vector, each once.
 /// `bytes(n)` is what a grid with n references in its lists takes, held against the limit before it is
 /// allocated.
 ///
 /// # Errors
-/// [`BuildError::TooLarge`] if memory or 32-bit positions don't suffice.
+/// [`BuildError::TooLarge`] if memory or 32-bit positions don't suffice, [`BuildError::Cancelled`].
 pub(crate) fn register(
     cells: usize,
     references: u32,
     limit: Limit,
+    cancel: Cancel,
     bytes: impl Fn(u64) -> u128,
-    cells_of: impl Fn(u32, &mut Vec<u32>) + Sync,
+    cells_of: impl Fn(u32, &mut Vec<Word>) + Sync,
 ) -> Result<Lists, BuildError> {
     limit.check(bytes(0))?;
     let alone = accel::parallel::threads() == 1;
@@ -72,37 +102,47 @@ pub(crate) fn register(
             counter.fetch_add(n, Relaxed)
         }
     };
-    let each = |with: &(dyn Fn(u32, &[u32]) + Sync)| {
-        const CHUNK: u32 = 256;
+    // Each is few to a chunk, as one reference may be in every cell.
+    const CHUNK: u32 = 64;
+    // Beyond the counters, what has been counted is more than can be numbered.
+    let counted = AtomicU64::new(0);
+    let most = u64::from(u32::MAX);
+    let each = |with: &(dyn Fn(u32, &[Word]) + Sync)| {
         (0..references.div_ceil(CHUNK)).into_par_iter().for_each_init(Vec::new, |found, chunk| {
             for reference in chunk * CHUNK..references.min((chunk + 1) * CHUNK) {
+                if cancel.is_asked() || counted.load(Relaxed) > most {
+                    return;
+                }
                 found.clear();
                 cells_of(reference, found);
                 with(reference, found);
             }
         });
+        cancel.check(limit.structure)
     };
     let offsets: Vec<AtomicU32> = vec![0; cells + 1].into_iter().map(AtomicU32::new).collect();
     each(&|_, found| {
-        for cell in found {
-            add(&offsets[*cell as usize], 1);
+        counted.fetch_add(found.iter().map(|word| u64::from(word.bits.count_ones())).sum(), Relaxed);
+        for cell in found.iter().flat_map(|word| word.cells()) {
+            add(&offsets[cell], 1);
         }
-    });
-    // Each cell's entry becomes the end of its list; filling moves it down to the start.
-    let mut end = 0u64;
-    for offset in &offsets {
-        end += u64::from(offset.load(Relaxed));
-        offset.store(end as u32, Relaxed);
-    }
-    let numbered = bytes(u64::from(u32::MAX));
+    })?;
+    let end = counted.load(Relaxed);
+    let numbered = bytes(most);
     Limit { bytes: limit.bytes.min(numbered), ..limit }.check(bytes(end))?;
+    // Each cell's entry becomes the end of its list; filling moves it down to the start.
+    let mut ends = 0;
+    for offset in &offsets {
+        ends += offset.load(Relaxed);
+        offset.store(ends, Relaxed);
+    }
     let lists: Vec<AtomicU32> = vec![0; end as usize].into_iter().map(AtomicU32::new).collect();
     each(&|reference, found| {
-        for cell in found {
-            let place = add(&offsets[*cell as usize], u32::MAX) - 1;
+        for cell in found.iter().flat_map(|word| word.cells()) {
+            let place = add(&offsets[cell], u32::MAX) - 1;
             lists[place as usize].store(reference, Relaxed);
         }
-    });
+    })?;
     let offsets: Vec<u32> = offsets.into_iter().map(AtomicU32::into_inner).collect();
     let mut references: Vec<u32> = lists.into_iter().map(AtomicU32::into_inner).collect();
     sort_lists(&offsets, &mut references);
@@ -135,11 +175,17 @@ mod tests {
 
     const ANY: Limit = Limit { structure: "test", bytes: u128::MAX };
 
+    fn words(cells: impl Iterator<Item = u32>) -> Word {
+        Word { first: 0, bits: cells.fold(0, |bits, cell| bits | 1 << cell) }
+    }
+
     fn modulo(threads: usize) -> Lists {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let cells_of =
-            |r: u32, found: &mut Vec<u32>| found.extend((0..7).filter(|cell| r.is_multiple_of(cell + 2)));
-        pool.install(|| register(8, 1000, ANY, |n| 4 * u128::from(n), cells_of)).unwrap()
+        let cells_of = |r: u32, found: &mut Vec<Word>| {
+            found.push(words((0..7).filter(|cell| r.is_multiple_of(cell + 2))));
+        };
+        let bytes = |n| 4 * u128::from(n);
+        pool.install(|| register(8, 1000, ANY, Cancel::NEVER, bytes, cells_of)).unwrap()
     }
 
     #[test]
@@ -158,12 +204,27 @@ mod tests {
 
     #[test]
     fn the_limit_is_held_before_and_after_counting() {
-        let all = |_: u32, found: &mut Vec<u32>| found.extend(0..100);
+        let all = |_: u32, found: &mut Vec<Word>| {
+            found.extend([Word { first: 0, bits: u64::MAX }, Word { first: 64, bits: (1 << 36) - 1 }]);
+        };
         let bytes = |n: u64| 400 + 4 * u128::from(n);
-        let with = |limit| register(100, 50, Limit { structure: "test", bytes: limit }, bytes, all);
+        let with =
+            |limit| register(100, 50, Limit { structure: "test", bytes: limit }, Cancel::NEVER, bytes, all);
         let error = |bytes, limit| BuildError::TooLarge { structure: "test".into(), bytes, limit };
         assert_eq!(with(100).unwrap_err(), error(400, 100));
         assert_eq!(with(500).unwrap_err(), error(20_400, 500));
         assert!(with(20_400).is_ok());
+    }
+
+    #[test]
+    fn a_cancelled_registration_ends_between_references() {
+        let seen = AtomicU32::new(0);
+        let enough = || seen.load(Relaxed) >= 5;
+        let count = |_: u32, _: &mut Vec<Word>| {
+            seen.fetch_add(1, Relaxed);
+        };
+        let ended = register(8, 1000, ANY, Cancel::when(&enough), |_| 0, count).unwrap_err();
+        assert_eq!(ended, BuildError::Cancelled { structure: "test".into() });
+        assert!(seen.into_inner() < 100);
     }
 }

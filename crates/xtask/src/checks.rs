@@ -29,9 +29,12 @@ pub fn run(places: &Places, ready: &Ready) -> ExitCode {
         }
         command
     };
-    let steps: [Step; 9] = [
+    let steps: [Step; 10] = [
         ("formatting", &|_| succeed(here("fmt").args(["--all", "--check"]))),
         ("structure", &|_| structure::examine(&places.root)?.verdict()),
+        ("the lock file names what the manifests ask for", &|_| {
+            output(here("metadata").args(["--locked", "--format-version=1"])).map(drop)
+        }),
         ("lints", &|_| {
             let mut command = workspace("clippy");
             succeed(command.args(["--all-targets", "--", "-D", "warnings"]))

@@ -7,6 +7,9 @@
 //! cargo xtask test              set up, then every check of the workspace
 //! cargo xtask structure         which crates and modules import which, and that there is no cycle
 //! cargo xtask package           the crates meant for others, and a program outside of the checkout that uses them
+//! cargo xtask fuzz              every fuzz target for a while
+//! cargo xtask sanitize          the tests of what holds `unsafe` under sanitizers and miri
+//! cargo xtask supply            licences, advisories and sources of all dependencies
 //! cargo xtask aarch64           the structures' tests with NEON, emulated if need be
 //! ```
 #![forbid(unsafe_code)]
@@ -16,12 +19,14 @@ mod bench;
 mod checks;
 mod compare;
 mod embree;
+mod fuzz;
 mod host;
 mod meshes;
 mod native;
 mod package;
 mod pip;
 mod places;
+mod sanitize;
 mod setup;
 mod share;
 mod shell;
@@ -41,6 +46,9 @@ usage: cargo xtask <command>
   test              set up, then formatting, lints, tests, documentation
   structure         list which crates and modules import which; fail on a cycle
   package           package the crates meant for others; build and run a program that has only those
+  fuzz [--time 10m] every fuzz target for so long, a minute otherwise; needs nightly Rust and cargo-fuzz
+  sanitize          the tests of what holds unsafe code under address and thread sanitizers and miri
+  supply            licences, advisories and sources of all dependencies; needs cargo-deny
   aarch64           the tests of the contract and the structures for aarch64, emulated on other processors
 
 Exit codes: 0 done, 1 a step failed, 2 bad usage.";
@@ -81,6 +89,15 @@ fn main() -> ExitCode {
             }
             Err(why) => fail(&why),
         },
+        ("fuzz", _) => match fuzz::seconds(&rest) {
+            Ok(seconds) => fuzz::run(&places, seconds),
+            Err(why) => {
+                eprintln!("xtask: {why}");
+                ExitCode::from(2)
+            }
+        },
+        ("sanitize", true) => sanitize::run(&places),
+        ("supply", true) => sanitize::supply(&places),
         ("aarch64", true) => aarch64::run(&places),
         ("help" | "--help" | "-h", _) => {
             println!("{USAGE}");

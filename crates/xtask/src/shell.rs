@@ -68,6 +68,13 @@ pub fn check_sha256(path: &Path, wanted: &str) -> Result<(), String> {
     }
 }
 
+/// The cargo of nightly Rust, by way of rustup.
+pub fn nightly() -> Command {
+    let mut command = Command::new("cargo");
+    command.arg("+nightly");
+    command
+}
+
 /// The cargo that runs this program.
 pub fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))

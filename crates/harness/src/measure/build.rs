@@ -4,8 +4,8 @@ use super::Options;
 use super::deadline::Deadline;
 use crate::clock::Clock;
 use crate::record::Bytes;
-use crate::registry::{BuildFailure, Choice, guarded_build};
-use accel::{Accel, Group, Need, Scene};
+use crate::registry::{BuildFailure, Choice, guarded_build_unless};
+use accel::{Accel, Cancel, Group, Need, Scene};
 use heap;
 
 /// A structure on its way through a scene.
@@ -51,7 +51,10 @@ pub fn build_all<'s>(
         if deadline.interrupted() {
             return None;
         }
-        all.push(watched(scene, choice, need));
+        all.push(watched(scene, choice, need, deadline));
+        if deadline.interrupted() {
+            return None;
+        }
     }
     for round in 0..options.due(options.build_rounds, pass) {
         for place in 0..wanted.len() {
@@ -72,15 +75,20 @@ pub fn build_all<'s>(
                 Err(Absent::Failed(_)) => false,
             };
             if wants {
-                timed(scene, choice, need, Clock::of(options.threads), built);
+                timed(scene, choice, need, Clock::of(options.threads), deadline, built);
+                if deadline.interrupted() {
+                    return None;
+                }
             }
         }
     }
     Some(())
 }
 
-fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Built<'s> {
-    let (accel, used) = heap::observe(|| guarded_build(choice, scene, need));
+fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need, deadline: &Deadline) -> Built<'s> {
+    let interrupted = || deadline.interrupted();
+    let build = || guarded_build_unless(choice, scene, need, Cancel::when(&interrupted));
+    let (accel, used) = heap::observe(build);
     let used = used.filter(|_| choice.entry.traits.counted);
     let bytes = accel.as_ref().ok().map(|accel| {
         let footprint = accel.footprint();
@@ -99,9 +107,17 @@ fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need) -> Built<'s> {
     Built { accel: accel.map_err(Absent::Failed), build_ns: Vec::new(), bytes }
 }
 
-fn timed<'s>(scene: &'s Scene, choice: &Choice, need: &Need, clock: Clock, built: &mut Built<'s>) {
+fn timed<'s>(
+    scene: &'s Scene,
+    choice: &Choice,
+    need: &Need,
+    clock: Clock,
+    deadline: &Deadline,
+    built: &mut Built<'s>,
+) {
+    let interrupted = || deadline.interrupted();
     let start = clock.now_of_build();
-    let again = guarded_build(choice, scene, need);
+    let again = guarded_build_unless(choice, scene, need, Cancel::when(&interrupted));
     let ns = clock.now_of_build() - start;
     if again.is_ok() {
         built.build_ns.push(ns);

@@ -1,24 +1,32 @@
 //! ν_mem of a scene by resolution, three ways.
 
 use crate::record::{Layout, MemoryRow};
-use crate::registry::{self, guarded_build};
-use accel::{Footprint, Group, Need, Scene};
+use crate::registry::{self, guarded_build_unless};
+use accel::{Cancel, Footprint, Group, Need, Scene};
 
 /// The resolutions of reports.
 pub const RESOLUTIONS: [u32; 5] = [8, 16, 32, 64, 128];
 
+/// Bytes that a structure may take for a row: with objects as large as the scene a grid of resolution 128 takes as much as
+/// the machine has, for a figure that nobody needs so exactly.
+const MOST: u64 = 2 << 30;
+
 /// A row for each resolution: the paper's formulas for the references that a grid registers, its
-/// layouts as built, and the compact layouts as built.
-pub fn memory_rows(scene: &Scene, resolutions: &[u32]) -> Vec<MemoryRow> {
+/// layouts as built, and the compact layouts as built. None if `cancel` was asked for before all were there.
+pub fn memory_rows(scene: &Scene, resolutions: &[u32], cancel: Cancel) -> Option<Vec<MemoryRow>> {
     // It has no N: its plan chooses, and is the same at all.
-    let sparse = footprint(scene, "bmssm");
-    resolutions.iter().map(|n| row(scene, *n, &sparse)).collect()
+    let sparse = footprint(scene, "bmssm", cancel);
+    let row = |n: &u32| {
+        let row = row(scene, *n, &sparse, cancel);
+        (!cancel.is_asked()).then_some(row)
+    };
+    resolutions.iter().map(row).collect()
 }
 
-fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>) -> MemoryRow {
+fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>, cancel: Cancel) -> MemoryRow {
     let objects = scene.geometry.len() as u64;
     let cells = f64::from(n).powi(3);
-    let built = |id: &str| footprint(scene, &format!("{id}:resolution={n}"));
+    let built = |id: &str| footprint(scene, &format!("{id}:resolution={n},memory={MOST}"), cancel);
     let (list, dense) = (built("ssm-list"), built("bmssm-dense"));
     let compact = built("ssm");
     // The compact grid may share a reference between objects, so the lists say how many there are.
@@ -35,9 +43,9 @@ fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>) -> MemoryRow {
     row
 }
 
-fn footprint(scene: &Scene, spec: &str) -> Result<Footprint, String> {
+fn footprint(scene: &Scene, spec: &str, cancel: Cancel) -> Result<Footprint, String> {
     let choice = registry::parse(spec).map_err(|error| error.to_string())?;
-    let built = guarded_build(&choice, scene, &Need::GENERAL);
+    let built = guarded_build_unless(&choice, scene, &Need::GENERAL, cancel);
     built.map(|accel| accel.footprint()).map_err(|failure| failure.to_string())
 }
 
@@ -57,7 +65,7 @@ mod tests {
     #[test]
     fn the_layouts_as_built_follow_the_formulas() {
         let (scene, _) = testing::cloud(2000, 1);
-        for row in memory_rows(&scene, &[8, 16]) {
+        for row in memory_rows(&scene, &[8, 16], Cancel::NEVER).unwrap() {
             let built = row.paper_layouts.unwrap();
             // The list's pointers have 4 bytes where the formula has 2.
             let cells = f64::from(row.resolution).powi(3);
@@ -66,5 +74,11 @@ mod tests {
             assert!((1.0..1.2).contains(&maps), "whole words: {maps}");
             assert!(row.refs_per_cell > 0.0);
         }
+    }
+
+    #[test]
+    fn an_interruption_leaves_no_rows() {
+        let (scene, _) = testing::cloud(2000, 1);
+        assert_eq!(memory_rows(&scene, &RESOLUTIONS, Cancel::when(&|| true)), None);
     }
 }

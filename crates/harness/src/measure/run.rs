@@ -9,7 +9,7 @@ use crate::progress::{Event, Listener};
 use crate::record::{Cell, Record, SceneEntry, Skipped};
 use crate::registry::Choice;
 use crate::workload::{self, Workload, Workloads};
-use accel::Scene;
+use accel::{Cancel, Scene};
 use scenes::{SceneError, SceneSpec};
 
 /// Why a session ends early.
@@ -159,7 +159,15 @@ fn one_scene(
     }
     record.skipped.extend(left.iter().map(|w| Skipped::rays(&scene.id, &w.id, &TIME_UP)));
     if session.memory && !record.memory.iter().any(|row| row.scene == scene.id) {
-        record.memory.extend(memory_rows(scene, &RESOLUTIONS));
+        let over = || session.deadline.is_over();
+        match memory_rows(scene, &RESOLUTIONS, Cancel::when(&over)) {
+            Some(rows) => record.memory.extend(rows),
+            None if session.deadline.interrupted() => {}
+            None => {
+                let id = format!("{}/memory by resolution", scene.id);
+                record.skipped.push(Skipped { id, reason: TIME_UP.to_owned() });
+            }
+        }
     }
     keep(record);
 }

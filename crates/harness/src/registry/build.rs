@@ -2,7 +2,7 @@
 
 use super::Choice;
 use crate::guard::{Panicked, guard};
-use accel::{Accel, BuildError, Need, Scene};
+use accel::{Accel, BuildError, Cancel, Need, Scene};
 
 /// Why there is no structure.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -20,6 +20,16 @@ impl BuildFailure {
     pub fn is_unsupported(&self) -> bool {
         matches!(self, Self::Refused(BuildError::Unsupported { .. }))
     }
+
+    /// Whether there is merely not enough memory.
+    pub fn is_too_large(&self) -> bool {
+        matches!(self, Self::Refused(BuildError::TooLarge { .. }))
+    }
+
+    /// Whether the build was asked to end.
+    pub fn is_cancelled(&self) -> bool {
+        matches!(self, Self::Refused(BuildError::Cancelled { .. }))
+    }
 }
 
 /// Builds; a panic of the builder is an error as well.
@@ -31,5 +41,18 @@ pub fn guarded_build<'s>(
     scene: &'s Scene,
     need: &Need,
 ) -> Result<Box<dyn Accel + 's>, BuildFailure> {
-    Ok(guard("the build", || choice.builder.build(scene, need))??)
+    guarded_build_unless(choice, scene, need, Cancel::NEVER)
+}
+
+/// [`guarded_build`] that gives up soon after it is asked to.
+///
+/// # Errors
+/// Those of [`guarded_build`], and [`BuildError::Cancelled`].
+pub fn guarded_build_unless<'s>(
+    choice: &Choice,
+    scene: &'s Scene,
+    need: &Need,
+    cancel: Cancel,
+) -> Result<Box<dyn Accel + 's>, BuildFailure> {
+    Ok(guard("the build", || choice.builder.build_unless(scene, need, cancel))??)
 }

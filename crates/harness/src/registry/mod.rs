@@ -9,7 +9,7 @@ mod kernel;
 mod look;
 mod settings;
 
-pub use build::{BuildFailure, guarded_build};
+pub use build::{BuildFailure, guarded_build, guarded_build_unless};
 pub use entries::keep_to_one_thread;
 pub use error::RegistryError;
 pub use kernel::{AUTO, ChosenKernel};

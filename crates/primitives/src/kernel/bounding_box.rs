@@ -19,6 +19,7 @@ const LEAST: f32 = 1.0 / (1u128 << 100) as f32;
 pub struct Slabs {
     origin: Vec3,
     inverse: Vec3,
+    /// NaN for a ray without a finite direction, which hits nothing.
     t_min: f32,
 }
 
@@ -89,12 +90,16 @@ impl Kernel for BoundingBox {
     #[inline(always)]
     fn one(ray: &Ray) -> Slabs {
         let inverse = inverse3(Scalar, ray.direction.to_array());
-        Slabs { origin: ray.origin, inverse: Vec3::from_array(inverse), t_min: ray.t_min }
+        let t_min = if ray.direction.is_finite() { ray.t_min } else { f32::NAN };
+        Slabs { origin: ray.origin, inverse: Vec3::from_array(inverse), t_min }
     }
 
     #[inline(always)]
     fn many<S: Simd>(s: S, rays: &Packet<S>) -> SlabsLanes<S> {
-        SlabsLanes { origin: rays.origin, inverse: inverse3(s, rays.direction), t_min: rays.t_min }
+        let [x, y, z] = rays.direction.map(|component| s.abs(component));
+        let finite = s.lt(s.max(s.max(x, y), z), s.splat(f32::INFINITY));
+        let t_min = s.select(finite, rays.t_min, s.splat(f32::NAN));
+        SlabsLanes { origin: rays.origin, inverse: inverse3(s, rays.direction), t_min }
     }
 
     #[inline(always)]

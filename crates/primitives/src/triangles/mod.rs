@@ -115,6 +115,12 @@ impl<'s, K: TriangleKernel> PackedObjects for Triangles<'s, K> {
         pack::blocks(self, order)
     }
 
+    fn bytes_of_blocks(slots: usize) -> u128 {
+        let slots = slots.next_multiple_of(lanes::BLOCK);
+        let group = K::Storage::units::<K>() * size_of::<<K::Storage as Storage>::Unit>();
+        (slots / ROW * group + slots * size_of::<u32>()) as u128
+    }
+
     fn blocks_in_place(&self, order: &[u32]) -> Self::Blocks {
         pack::blocks_in_place(self, order)
     }
@@ -228,7 +234,9 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn one(&self, ray: &Ray) -> Self::One {
         let frame = &self.triangles.frame;
-        TriangleRay { prepared: K::one(&frame.ray(ray)), ray: *ray, near: frame.is_near(ray.origin) }
+        // A ray without a range, as NaN makes it, has no certain hits.
+        let near = frame.is_near(ray.origin) && ray.t_min <= ray.t_max;
+        TriangleRay { prepared: K::one(&frame.ray(ray)), ray: *ray, near }
     }
 
     #[inline(always)]
@@ -240,7 +248,8 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
             let distance = s.abs(s.sub(rays.origin[axis], s.splat(frame.center[axis])));
             all = s.and(all, s.le(distance, near));
         }
-        TrianglePacket { prepared: K::many(s, &frame.packet(s, rays)), rays: *rays, near: all }
+        let near = s.and(all, s.le(rays.t_min, rays.t_max));
+        TrianglePacket { prepared: K::many(s, &frame.packet(s, rays)), rays: *rays, near }
     }
 
     #[inline(always)]

@@ -1,5 +1,8 @@
 //! `rayscale check`: differences from brute force.
 
+mod marathon;
+mod verify;
+
 use crate::console::Console;
 use crate::error::Error;
 use crate::options::Selection;
@@ -16,6 +19,8 @@ use primitives::KernelId;
 use report::table::{Column, Table, Value, figure};
 use scenes::rays::RaysId;
 use serde::Serialize;
+use std::path::PathBuf;
+use std::time::Duration;
 
 /// Compare the answers of structures with brute force, bit for bit, or with exact arithmetic
 ///
@@ -31,7 +36,10 @@ use serde::Serialize;
   rayscale check --full
   rayscale check --oracle
   rayscale check --oracle 20000 --scene extreme-needles --structure minmax:kernel=exact
-  rayscale check --leaks 10000000")]
+  rayscale check --leaks 10000000
+  rayscale check --verify
+  rayscale check --verify --run rays/ --structure ssm
+  rayscale check --marathon marathon.json --time 10m")]
 pub struct Check {
     #[command(flatten)]
     selection: Selection,
@@ -46,6 +54,22 @@ pub struct Check {
     /// and watertight, and by Embree
     #[arg(long, value_name = "RAYS", num_args = 0..=1, default_missing_value = "10000000")]
     leaks: Option<u64>,
+    /// A tree of named questions, from closed meshes to cancelled builds, each asked of every structure
+    #[arg(long)]
+    verify: bool,
+    /// Of --verify only the questions whose name holds this
+    #[arg(long, value_name = "PATTERN", requires = "verify", default_value = "")]
+    run: String,
+    /// Random scenes, rays, settings, instruction sets and threads against brute force and exact arithmetic; the record says
+    /// how far it came, and a further run goes on from there
+    #[arg(long, value_name = "FILE")]
+    marathon: Option<PathBuf>,
+    /// With --marathon: for so long, such as 90s or 1h30m
+    #[arg(long, value_name = "DURATION", requires = "marathon", value_parser = units::duration)]
+    time: Option<Duration>,
+    /// With --marathon: until the record has so many rays
+    #[arg(long, value_name = "RAYS", requires = "marathon", default_value_t = 1_000_000_000)]
+    until: u64,
 }
 
 /// What was checked.
@@ -61,6 +85,13 @@ struct Checks {
 
 impl Verb for Check {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
+        if self.verify {
+            return verify::verify(console, &self.run, &self.selection.structures);
+        }
+        if let Some(record) = &self.marathon {
+            let goal = ::verify::marathon::Goal { rays: self.until, time: self.time };
+            return marathon::marathon(console, record, goal, self.selection.seed);
+        }
         let sweep = self.full || (self.oracle.is_none() && self.leaks.is_none());
         let tally = match (sweep, self.full) {
             (false, _) => None,

@@ -4,7 +4,7 @@ use super::measure::{Effort, failures, interrupted, measure};
 use super::pictures::pictures;
 use super::{check, report};
 use crate::console::Console;
-use crate::error::Error;
+use crate::error::{Error, check_place};
 use crate::options::Selection;
 use crate::verb::{Outcome, Verb};
 use clap::Args;
@@ -44,14 +44,15 @@ impl Verb for Compare {
         let mut selection = self.selection.clone();
         let mut effort = self.effort.clone();
         let mut sound = true;
+        std::fs::create_dir_all(&self.out).map_err(|error| Error::io(self.out.display(), error))?;
+        let path = self.out.join("record.json");
+        check_place(&path)?;
         if self.full {
             sound = check::full(console, &selection)?.is_sound();
             selection.size = selection.size.or(Some(FULL_SIZE));
         } else {
             effort.time_budget = effort.time_budget.or(Some(TIME));
         }
-        std::fs::create_dir_all(&self.out).map_err(|error| Error::io(self.out.display(), error))?;
-        let path = self.out.join("record.json");
         let record = measure(console, &selection, &effort, &path)?;
         if let Some(outcome) = interrupted(console, &record, &path)? {
             return Ok(outcome);
@@ -62,7 +63,7 @@ impl Verb for Compare {
         failed.iter().for_each(|line| console.note(line));
         let names: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
         console.result(
-            &serde_json::json!({ "written": written, "cells": record.cells.len(), "failed": failed.len() }),
+            &serde_json::json!({ "written": names, "cells": record.cells.len(), "failed": failed.len() }),
             format_args!("{} cells, {} failed\n{}", record.cells.len(), failed.len(), names.join("\n")),
         )?;
         Ok(if sound && failed.is_empty() { Outcome::Done } else { Outcome::Failed })

@@ -41,6 +41,14 @@ pub fn trace(console: &Console, choice: &Choice, scene: &Scene, rays: &RaySet) -
         let start = Instant::now();
         let accel = choice.builder.build(scene, &Need::of(rays))?;
         let build = start.elapsed();
+        let bytes = rays.len() as u128 * size_of::<Option<Hit>>() as u128;
+        let available = accel::available_memory();
+        if bytes > available {
+            return Err(Error::usage(
+                format!("the hits of {} rays take {bytes} bytes; there are {available}", rays.len()),
+                "trace fewer rays at a time",
+            ));
+        }
         let mut hits = vec![None; rays.len()];
         let start = Instant::now();
         accel.trace(rays, &mut hits);

@@ -1,13 +1,14 @@
 //! `rayscale measure`: a record.
 
 use crate::console::Console;
-use crate::error::Error;
+use crate::error::{Error, check_place};
 use crate::interrupt;
 use crate::options::Selection;
 use crate::progress::Progress;
 use crate::verb::{Outcome, Verb, command_line};
 use clap::Args;
 use harness::measure::{self, Deadline, Options, Session};
+use harness::output::{Claim, ClaimError};
 use harness::record::{self, Cell, Record};
 use harness::registry::{self, Choice};
 use harness::units;
@@ -73,7 +74,7 @@ impl Verb for Measure {
         let failed = failures(&record);
         let cells = record.cells.len();
         console.result(
-            &serde_json::json!({ "record": self.out, "cells": cells, "failed": failed.len() }),
+            &serde_json::json!({ "record": self.out.to_string_lossy(), "cells": cells, "failed": failed.len() }),
             format_args!("{}: {cells} cells, {} of them failed", self.out.display(), failed.len()),
         )?;
         failed.iter().for_each(|line| console.note(line));
@@ -109,6 +110,8 @@ pub fn measure(
         deadline: Deadline::new(interrupt::flag(console)?, effort.time_budget),
         command: without_resume(&command_line()),
     };
+    check_place(out)?;
+    let _claim = claim(out)?;
     let begun = begun(&session, &choices, effort, out)?;
     let steps = session.subject.scenes.len() * session.subject.rays.len() * session.options.passes();
     let mut progress = Progress::new(console, steps, "measuring");
@@ -124,6 +127,17 @@ pub fn measure(
         record::write(out, &record)?;
     }
     Ok(record)
+}
+
+/// A record is written again and again: of two runs that do so, the last would win in silence.
+fn claim(out: &Path) -> Result<Claim, Error> {
+    Claim::of(out).map_err(|error| match error {
+        ClaimError::Taken => Error::usage(
+            format!("{}: another run is writing this record", out.display()),
+            "wait for it, or give --out another name",
+        ),
+        ClaimError::Io(error) => Error::io(out.display(), error),
+    })
 }
 
 /// A new record, or the one to go on with.
@@ -142,7 +156,7 @@ pub fn interrupted(console: &Console, record: &Record, path: &Path) -> Result<Op
     let again = without_resume(&command_line()) + " --resume";
     let cells = record.cells.len();
     console.result(
-        &serde_json::json!({ "record": path, "cells": cells, "interrupted": true, "resume": again }),
+        &serde_json::json!({ "record": path.to_string_lossy(), "cells": cells, "interrupted": true, "resume": again }),
         format_args!("stopped: {} holds the {cells} cells done by then; to go on:\n{again}", path.display()),
     )?;
     Ok(Some(Outcome::Interrupted))

@@ -3,9 +3,10 @@
 use super::hits::trace;
 use super::judged;
 use crate::console::Console;
-use crate::error::Error;
+use crate::error::{Error, check_place};
 use crate::options::{CameraOptions, KernelOptions, shadings, structures};
 use crate::verb::{Outcome, Verb};
+use accel::input::check_ray;
 use accel::{Geometry, Hit, Raster, RaySet, Scene};
 use clap::{Args, ValueEnum};
 use harness::output::write_whole;
@@ -114,16 +115,18 @@ impl Verb for Render {
         let judged = self.against.as_deref() == Some(EXACT);
         let against = self.against.as_deref().filter(|_| !judged);
         let against = against.map(|text| plain.choose_one(text)).transpose()?;
+        check_place(&self.out)?;
         let spec: SceneSpec = self.camera.named(&self.scene).parse()?;
         let scene = console.scene(&spec)?;
         let raster = self.raster(&scene);
         let rays = RaySet::Raster(raster);
+        check_camera(&rays, &scene)?;
         let first = trace(console, &choice, &scene, &rays)?;
         let picture = shade(&scene.geometry, &raster, &first.hits, self.shade);
         let hits = first.hits.iter().flatten().count();
         let mut facts = serde_json::json!({
             "scene": scene.id, "structure": choice.spec.to_string(), "kernel": first.kernel,
-            "kernel_reason": first.reason, "out": self.out,
+            "kernel_reason": first.reason, "out": self.out.to_string_lossy(),
             "cols": raster.cols, "rows": raster.rows, "hits": hits,
         });
         let mut text = format!(
@@ -154,6 +157,19 @@ impl Verb for Render {
         console.result(&facts, text)?;
         Ok(if differences.total() == 0 { Outcome::Done } else { Outcome::Failed })
     }
+}
+
+/// A camera whose corner rays can be traced has no others: the rest lies between them.
+fn check_camera(rays: &RaySet, scene: &Scene) -> Result<(), Error> {
+    let RaySet::Raster(raster) = rays else { return Ok(()) };
+    let (bounds, cols) = (scene.geometry.bounds(), raster.cols as usize);
+    let corners = [0, cols - 1, rays.len() - cols, rays.len() - 1];
+    corners.into_iter().try_for_each(|i| check_ray(&bounds, &rays.ray(i))).map_err(|error| {
+        Error::usage(
+            format!("{}: the camera's rays can't be traced: {error}", scene.id),
+            "choose another --eye, --target, --fov or scale",
+        )
+    })
 }
 
 impl Render {

@@ -47,7 +47,7 @@ impl Verb for Report {
             }
         };
         let names: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
-        console.result(&serde_json::json!({ "written": written }), names.join("\n"))?;
+        console.result(&serde_json::json!({ "written": names }), names.join("\n"))?;
         Ok(Outcome::Done)
     }
 }

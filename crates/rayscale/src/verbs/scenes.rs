@@ -1,9 +1,10 @@
 //! `rayscale scenes`
 
 use crate::console::Console;
-use crate::error::Error;
+use crate::error::{Error, check_place};
 use crate::verb::{Outcome, Verb};
 use clap::{Args, Subcommand};
+use harness::output::write_whole;
 use harness::units;
 use scenes::{Loaded, SceneInfo, SceneSpec};
 use serde::Serialize;
@@ -66,14 +67,16 @@ impl Verb for Scenes {
             None | Some(What::List) => list(console)?,
             Some(What::Describe { scene }) => describe(console, scene)?,
             Some(What::Export { scene, out }) => {
+                check_place(out)?;
                 let loaded = console.scene(scene)?;
-                scenes::export_obj(&loaded, out)?;
+                write_whole(out, |file| scenes::write_obj(&loaded, file))
+                    .map_err(|error| Error::io(out.display(), error))?;
                 let objects = loaded.geometry.len();
                 let kind = loaded.geometry.kind();
                 let text =
                     format!("{}: {} {kind} → {}", loaded.id, units::count(objects as u64), out.display());
                 console.result(
-                    &serde_json::json!({ "scene": loaded.id, "objects": objects, "kind": kind, "out": out }),
+                    &serde_json::json!({ "scene": loaded.id, "objects": objects, "kind": kind, "out": out.to_string_lossy() }),
                     text,
                 )?;
             }

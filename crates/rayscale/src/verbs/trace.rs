@@ -2,10 +2,11 @@
 
 use super::hits::trace;
 use crate::console::Console;
-use crate::error::Error;
+use crate::error::{Error, check_place};
 use crate::options::{KernelOptions, structures};
 use crate::verb::{Outcome, Verb};
-use accel::{Ray, RaySet};
+use accel::input::check_ray;
+use accel::{Ray, RaySet, Scene};
 use clap::Args;
 use harness::output::write_whole;
 use harness::units;
@@ -58,8 +59,10 @@ impl Verb for Trace {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
         let choice = self.kernel.choose_one(&self.structure)?;
         self.spare_the_rays()?;
+        check_place(&self.out)?;
         let rays = read(&self.rays)?;
         let scene = console.scene(&self.scene)?;
+        self.check_reach(&rays, &scene)?;
         let traced = trace(console, &choice, &scene, &RaySet::List(rays))?;
         let written = write_whole(&self.out, |out| write_hits(out, &traced.hits));
         written.map_err(|error| Error::io(self.out.display(), error))?;
@@ -69,7 +72,7 @@ impl Verb for Trace {
             &serde_json::json!({
                 "scene": scene.id, "structure": choice.spec.to_string(), "kernel": traced.kernel,
                 "kernel_reason": traced.reason,
-                "rays": rays, "hits": hits, "build_ns": build, "trace_ns": trace, "out": self.out,
+                "rays": rays, "hits": hits, "build_ns": build, "trace_ns": trace, "out": self.out.to_string_lossy(),
             }),
             format!(
                 "{} rays, {} hits by {} (built in {}, traced in {}) → {}",
@@ -86,6 +89,16 @@ impl Verb for Trace {
 }
 
 impl Trace {
+    /// No ray may begin farther away than structures are right for.
+    fn check_reach(&self, rays: &[Ray], scene: &Scene) -> Result<(), Error> {
+        let bounds = scene.geometry.bounds();
+        let far = rays.iter().enumerate().find_map(|(i, ray)| Some((i, check_ray(&bounds, ray).err()?)));
+        far.map_or(Ok(()), |(i, error)| {
+            let what = format!("{}, ray {i}: {error}", self.rays.display());
+            Err(Error::usage(what, "begin the ray nearer to the scene"))
+        })
+    }
+
     /// The hits must not take the place of the rays.
     fn spare_the_rays(&self) -> Result<(), Error> {
         let same = |a: &Path, b: &Path| matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b);

@@ -56,7 +56,7 @@ pub enum RaysCsvError {
 
 const fn place(error: RayError) -> &'static str {
     match error {
-        RayError::Origin(_) => "fields `ox`, `oy`, `oz`",
+        RayError::Origin(_) | RayError::Far(_) => "fields `ox`, `oy`, `oz`",
         RayError::Direction(_) | RayError::ZeroDirection => "fields `dx`, `dy`, `dz`",
         RayError::Range(..) => "fields `t_min`, `t_max`",
     }

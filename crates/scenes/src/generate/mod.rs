@@ -25,6 +25,10 @@ use serde::Deserialize;
 /// More objects than this are refused: a slip in a number should not fill the memory.
 pub const MAX_OBJECTS: u64 = 1 << 26;
 
+/// Edges around a solid at most: what is made once for all spheres of a scene takes the square of them, whether there are
+/// spheres or not.
+const MOST_SEGMENTS: u32 = 2048;
+
 /// A scene family with its parameters, as the `[generator]` table of a definition says it.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
@@ -220,7 +224,7 @@ impl Generator {
     }
 
     /// An upper bound on the number of triangles or boxes, saturating.
-    fn objects_bound(&self) -> u64 {
+    pub fn objects_bound(&self) -> u64 {
         let cells = |n: u32| u64::from(n).saturating_mul(u64::from(n));
         match *self {
             Self::Boxes { objects, .. } | Self::Triangles { objects, .. } | Self::Needles { objects, .. } => {
@@ -234,14 +238,19 @@ impl Generator {
             Self::Degenerate { objects, .. } => 3 * u64::from(objects),
             Self::StackedBoxes { side } => u64::from(side).saturating_pow(3),
             Self::Stadium { cells: n, .. } | Self::Teapot { cells: n, .. } => cells(n).saturating_mul(66),
-            Self::Sombrero { size_factor } => 2048u64.saturating_mul(4u64.saturating_pow(size_factor - 1)),
+            Self::Sombrero { size_factor } => {
+                2048u64.saturating_mul(4u64.saturating_pow(size_factor.saturating_sub(1)))
+            }
             Self::Spd { database, size_factor, segments } => {
-                let most = match database {
-                    Database::Gears => 4,
-                    Database::Mount | Database::Tetra => 1,
-                    _ => cells(segments.saturating_add(3)).max(2),
-                };
-                database.primitives(size_factor).saturating_mul(most)
+                let round = cells(segments.saturating_add(3)).max(2);
+                let primitives = database.primitives(size_factor);
+                match database {
+                    Database::Gears => primitives.saturating_mul(4),
+                    // Flat ones, and four spheres above them.
+                    Database::Mount => primitives.saturating_add(4 * round),
+                    Database::Tetra => primitives,
+                    _ => primitives.saturating_mul(round),
+                }
             }
         }
     }
@@ -252,6 +261,9 @@ impl Generator {
             if usable { Ok(()) } else { Err(format!("{name} must be a positive number, not {value}")) }
         };
         match *self {
+            Self::Spd { segments, .. } if segments > MOST_SEGMENTS => {
+                return Err(format!("segments must be at most {MOST_SEGMENTS}, not {segments}"));
+            }
             Self::Boxes { side, .. } => positive("side", side)?,
             Self::Triangles { edge, .. } => positive("edge", edge)?,
             Self::Needles { length, aspect, .. } => {
@@ -290,8 +302,19 @@ impl Generator {
         if objects > MAX_OBJECTS {
             return Err(format!("up to {objects} objects would be made; the most is {MAX_OBJECTS}"));
         }
-        Ok(())
+        check_memory(objects, accel::available_memory())
     }
+}
+
+/// Bytes that an object takes at most: three corners and as many numbers, or a box, and what is made on the way.
+const EACH: u128 = 64;
+
+fn check_memory(objects: u64, available: u128) -> Result<(), String> {
+    let bytes = u128::from(objects) * EACH;
+    if bytes > available {
+        return Err(format!("up to {bytes} bytes would be taken; there are {available}"));
+    }
+    Ok(())
 }
 
 /// Appends `other` to `mesh`.
@@ -335,11 +358,19 @@ mod tests {
     }
 
     #[test]
+    fn scenes_larger_than_memory_are_refused() {
+        assert!(check_memory(1000, 64_000).is_ok() && check_memory(1001, 64_000).is_err());
+    }
+
+    #[test]
     fn absurd_sizes_are_refused_before_memory_is_taken() {
         for generator in [
             Generator::Triangles { objects: u32::MAX, edge: 1.0 },
             Generator::Spd { database: Database::Balls, size_factor: u32::MAX, segments: 8 },
             Generator::Spd { database: Database::Tetra, size_factor: 0, segments: 8 },
+            Generator::Spd { database: Database::Tetra, size_factor: 1, segments: u32::MAX },
+            Generator::Spd { database: Database::Mount, size_factor: 1, segments: 200_000 },
+            Generator::Spd { database: Database::Gears, size_factor: 1, segments: 1 << 31 },
             Generator::Sombrero { size_factor: 0 },
             Generator::Foliage { objects: 13 },
             Generator::Strands { objects: 89 },

@@ -242,6 +242,20 @@ pub enum RaysError {
         /// Similar names, nearest first.
         near: Vec<String>,
     },
+    /// Memory does not suffice for the rays and what they hit.
+    #[error(
+        "{count} `{rays}` rays and their hits take {bytes} bytes, more than the {available} there are; choose a smaller --size"
+    )]
+    TooLarge {
+        /// The set.
+        rays: RaysId,
+        /// How many there would be.
+        count: u128,
+        /// What they would take.
+        bytes: u128,
+        /// What there is.
+        available: u128,
+    },
     /// Rays of this set start from hits, and there are none.
     #[error("`{rays}` rays start from hits, and none of the rays that look for them meets scene `{scene}`")]
     NoHits {

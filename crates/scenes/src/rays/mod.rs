@@ -33,13 +33,14 @@ pub use raster::{parallel, perspective};
 pub use spawn::offset as spawn_offset;
 pub use spec::RaysSpec;
 
+use accel::input::check_ray;
 use accel::{Accel, RaySet, Scene};
 
 /// Makes the rays. `tracer` answers closest hits of the scene, where [`RaysId::needs_hits`];
 /// its answers are part of what the set depends on.
 ///
 /// # Errors
-/// [`RaysError::NoHits`] where rays start from hits and the view meets nothing,
+/// [`RaysError::TooLarge`] where memory doesn't suffice, [`RaysError::NoHits`] where rays start from hits and the view meets nothing,
 /// [`RaysError::NoObjects`] where they aim at objects and there is none, [`RaysError::Unusable`] where
 /// one of them is no ray that structures accept.
 ///
@@ -47,6 +48,7 @@ use accel::{Accel, RaySet, Scene};
 /// If `tracer` serves general rays no better than to panic.
 pub fn generate(scene: &Scene, spec: &RaysSpec, tracer: &dyn Accel) -> Result<RaySet, RaysError> {
     let RaysSpec { id, rows, cols, .. } = *spec;
+    spec.check_memory()?;
     let list = match id {
         RaysId::Parallel => {
             let raster = parallel(&scene.view, &scene.geometry.bounds(), rows, cols);
@@ -65,8 +67,9 @@ pub fn generate(scene: &Scene, spec: &RaysSpec, tracer: &dyn Accel) -> Result<Ra
 
 /// The set, if structures accept all its rays.
 fn checked(scene: &Scene, id: RaysId, rays: RaySet) -> Result<RaySet, RaysError> {
+    let bounds = scene.geometry.bounds();
     for i in 0..rays.len() {
-        if let Err(source) = rays.ray(i).validate() {
+        if let Err(source) = check_ray(&bounds, &rays.ray(i)) {
             return Err(RaysError::Unusable { rays: id, scene: scene.id.clone(), source });
         }
     }

@@ -1,6 +1,7 @@
 //! A ray set with its size and seed.
 
-use super::id::RaysId;
+use super::id::{RaysError, RaysId};
+use accel::{Hit, Ray};
 
 /// A ray set to make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,5 +20,19 @@ impl RaysSpec {
     /// Number of rays.
     pub fn count(&self) -> usize {
         self.rows as usize * self.cols as usize
+    }
+
+    /// Holds what the rays take, and the hits of two structures that are compared, against the memory there is.
+    ///
+    /// # Errors
+    /// [`RaysError::TooLarge`]
+    pub(super) fn check_memory(&self) -> Result<(), RaysError> {
+        let count = u128::from(self.rows) * u128::from(self.cols);
+        let bytes = count * (size_of::<Ray>() + 2 * size_of::<Option<Hit>>()) as u128;
+        let available = accel::available_memory();
+        if bytes > available {
+            return Err(RaysError::TooLarge { rays: self.id, count, bytes, available });
+        }
+        Ok(())
     }
 }

@@ -32,8 +32,22 @@ use std::path::Path;
 /// that name missing vertices, no faces; each with the line or vertex.
 pub fn mesh(path: &Path) -> Result<Polygons, SceneError> {
     let file = File::open(path).map_err(|source| SceneError::Io { path: path.to_owned(), source })?;
+    // What is no file, such as a pipe, has no length.
+    let length = file.metadata().map_or(0, |found| found.len());
+    check_memory(path, length, accel::available_memory())?;
     let is_ply = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply"));
     if is_ply { ply::read(Lines::new(path, file)) } else { obj::read(path, file) }
+}
+
+/// Bytes that reading takes at most for each byte of text: the text, what is parsed, and the mesh.
+const EACH: u128 = 3;
+
+fn check_memory(path: &Path, length: u64, available: u128) -> Result<(), SceneError> {
+    let bytes = u128::from(length) * EACH;
+    if bytes > available {
+        return Err(SceneError::Memory { path: path.to_owned(), bytes, available });
+    }
+    Ok(())
 }
 
 /// SHA-256 in hex of a file's bytes.
@@ -57,5 +71,17 @@ impl io::Write for HashWriter<'_> {
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_larger_than_memory_are_refused() {
+        let path = Path::new("large.obj");
+        assert!(check_memory(path, 1000, 3000).is_ok());
+        assert!(matches!(check_memory(path, 1001, 3000), Err(SceneError::Memory { bytes: 3003, .. })));
     }
 }

@@ -3,6 +3,7 @@
 //! brick of its own.
 
 use super::way::{ClippedSegment, Frame, advance};
+use crate::register::Word;
 use accel::grid::Grid;
 use accel::{Aabb, Ray};
 use std::ops::Range;
@@ -72,17 +73,47 @@ impl Field {
         [0, 1, 2].map(|axis| self.lattice.slices(axis, bounds))
     }
 
-    /// Appends the numbers of the cells in these slices of the finest level.
-    pub fn cells(&self, slices: &[Range<u32>; 3], found: &mut Vec<u32>) {
-        let [xs, ys, zs] = slices.each_ref().map(|r| at_level(r, self.levels));
-        let [bx, by, _] = self.bricks;
-        for z in zs {
-            for y in ys.clone() {
-                let row = (z / EDGE * by + y / EDGE) * bx;
-                let within = z % EDGE * 16 + y % EDGE * 4;
-                found.extend(xs.clone().map(|x| (row + x / EDGE) * BRICK as u32 + within + x % EDGE));
-            }
+    /// Appends the cells of the grid that any of these slices of the finest level reach, brick by brick.
+    pub fn cells(&self, objects: &[[Range<u32>; 3]], found: &mut Vec<Word>) {
+        let bricks_of = |of: &[Range<u32>; 3]| of.each_ref().map(|r| at_level(r, self.levels + 1));
+        let volume = |of: &[Range<u32>; 3]| of.iter().map(|r| u64::from(r.end - r.start)).product::<u64>();
+        let own: u64 = objects.iter().map(|object| volume(&bricks_of(object))).sum();
+        let Some(hull) = objects.iter().map(bricks_of).reduce(|a, b| {
+            [0, 1, 2].map(|axis| a[axis].start.min(b[axis].start)..a[axis].end.max(b[axis].end))
+        }) else {
+            return;
+        };
+        // All objects brick by brick, unless they lie so far apart that most bricks between hold none of them.
+        if volume(&hull) * objects.len() as u64 <= WORTH_SORTING * own {
+            each_place(&hull, |brick| {
+                let bits = objects.iter().fold(0, |bits, object| bits | self.within(object, brick));
+                if bits != 0 {
+                    found.push(self.word(brick, bits));
+                }
+            });
+            return;
         }
+        for object in objects {
+            each_place(&bricks_of(object), |brick| {
+                found.push(self.word(brick, self.within(object, brick)));
+            });
+        }
+        found.sort_unstable_by_key(|word| word.first);
+        found.dedup_by(|word, kept| {
+            let same = word.first == kept.first;
+            kept.bits |= if same { word.bits } else { 0 };
+            same
+        });
+    }
+
+    /// The cells of a brick of the grid that these slices of the finest level reach.
+    fn within(&self, object: &[Range<u32>; 3], brick: [u32; 3]) -> u64 {
+        places(&object.each_ref().map(|r| at_level(r, self.levels)), brick)
+    }
+
+    fn word(&self, [x, y, z]: [u32; 3], bits: u64) -> Word {
+        let [bx, by, _] = self.bricks;
+        Word { first: ((z * by + y) * bx + x) * BRICK as u32, bits }
     }
 
     /// The slices of the grid in which a cell lies, of the grid's own level.
@@ -171,7 +202,55 @@ impl Field {
     }
 }
 
+/// So many words put in order take as long as looking at one object in one brick, about.
+const WORTH_SORTING: u64 = 8;
+
+fn each_place([xs, ys, zs]: &[Range<u32>; 3], mut with: impl FnMut([u32; 3])) {
+    for z in zs.clone() {
+        for y in ys.clone() {
+            for x in xs.clone() {
+                with([x, y, z]);
+            }
+        }
+    }
+}
+
+/// The cells of a brick in these slices, as bits.
+pub(super) fn places(slices: &[Range<u32>; 3], brick: [u32; 3]) -> u64 {
+    let [x, y, z] = [0, 1, 2].map(|a| {
+        let first = brick[a] * EDGE;
+        let end = slices[a].end.saturating_sub(first).min(EDGE);
+        let start = slices[a].start.saturating_sub(first).min(end);
+        (1u128 << (16 * end)) - (1u128 << (16 * start))
+    });
+    // A bit for each slice, as far apart as cells are numbered.
+    let (z, y) = (z as u64 & 0x0001_0001_0001_0001, y as u64 & 0x0001_0001_0001_0001);
+    let y = (y | y >> 12 | y >> 24 | y >> 36) & 0x1111;
+    let x = x as u64 & 0x0001_0001_0001_0001;
+    let x = (x | x >> 15 | x >> 30 | x >> 45) & 0xf;
+    x * y * z
+}
+
 /// Slices of the finest level as slices that many levels up.
 pub(super) fn at_level(range: &Range<u32>, levels: u32) -> Range<u32> {
     range.start >> (SHIFT * levels)..((range.end - 1) >> (SHIFT * levels)) + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_the_cells_in_all_three_ranges() {
+        for (xs, ys, zs) in [(0..4, 0..4, 0..4), (1..3, 2..4, 0..1), (5..9, 0..20, 3..7), (9..11, 0..1, 0..1)]
+        {
+            let mut expected = 0u64;
+            each_place(&[4..8, 0..4, 4..8], |[x, y, z]| {
+                if xs.contains(&x) && ys.contains(&y) && zs.contains(&z) {
+                    expected |= 1 << ((x - 4) + 4 * y + 16 * (z - 4));
+                }
+            });
+            assert_eq!(places(&[xs, ys, zs], [1, 0, 1]), expected);
+        }
+    }
 }

@@ -13,7 +13,7 @@ use crate::settings::Settings;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
 use accel::{
-    Accel, Bounds, BuildError, Builder, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes,
+    Accel, Bounds, BuildError, Builder, Cancel, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes,
 };
 use field::{BRICK, Field};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
@@ -77,15 +77,27 @@ impl Builder for Ssm {
         format!("{} divide={divide}", self.settings.display())
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        primitives::with_objects(scene, self.settings.kernel, *self)
+    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+        self.build_unless(scene, need, Cancel::NEVER)
+    }
+
+    fn build_unless<'s>(
+        &self,
+        scene: &'s Scene,
+        _: &Need,
+        cancel: Cancel,
+    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+        primitives::with_objects(scene, self.settings.kernel, Build(*self, cancel))
     }
 }
 
-impl<'s> WithObjects<'s> for Ssm {
+/// Builds for objects of any kind.
+pub(crate) struct Build<'c>(pub Ssm, pub Cancel<'c>);
+
+impl<'s> WithObjects<'s> for Build<'_> {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
-        Ok(Box::new(Built::new(objects, &self)?))
+        Ok(Box::new(Built::new(objects, &self.0, self.1)?))
     }
 }
 
@@ -137,26 +149,36 @@ struct Laid {
 }
 
 impl Laid {
-    fn new<B: Bounds>(objects: &B, ssm: &Ssm) -> Result<Self, BuildError> {
+    /// `copy` tells what the packed objects will take.
+    fn new<B: Bounds>(
+        objects: &B,
+        ssm: &Ssm,
+        copy: fn(usize) -> u128,
+        cancel: Cancel,
+    ) -> Result<Self, BuildError> {
         let settings = &ssm.settings;
         let Order { slots, apart, bounds } = order::order(objects);
         let others = slots.len() - if apart { GROUP } else { 0 };
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, others)?;
         let mut field = Field::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
-        let limit = Limit::of(ID, settings);
+        let copy = copy(slots.len());
+        let limit = Limit::of(ID, settings).less(copy + slots.len() as u128 * 4)?;
         let bricks = limit.cells(field.bricks() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
         let groups = (slots.len() / GROUP) as u32;
         let bytes = |references: u64| bricks as u128 * BRICK_BYTES + 4 * u128::from(references);
-        let lists = register(bricks * BRICK, groups, limit, bytes, |group, found| {
+        let lists = register(bricks * BRICK, groups, limit, cancel, bytes, |group, found| {
             if apart && group == 0 {
                 return;
             }
             let first = group as usize * GROUP;
-            for object in slots[first..first + GROUP].iter().filter(|object| **object != EMPTY_SLOT) {
-                field.cells(&field.slices(&objects.bounds(*object)), found);
+            let held = slots[first..first + GROUP].iter().filter(|object| **object != EMPTY_SLOT);
+            let mut slices = [const { [0..0, 0..0, 0..0] }; GROUP];
+            let mut len = 0;
+            for (slices, object) in slices.iter_mut().zip(held) {
+                *slices = field.slices(&objects.bounds(*object));
+                len += 1;
             }
-            found.sort_unstable();
-            found.dedup();
+            field.cells(&slices[..len], found);
         })?;
         let mut cells = Cells { positions: lists.offsets, references: lists.references };
         let occupied = cells.positions.par_windows(BRICK + 1).step_by(BRICK).map(|ends| {
@@ -164,16 +186,17 @@ impl Laid {
         });
         field.occupied = occupied.collect::<Vec<_>>().into_boxed_slice();
         if let Some(gain) = ssm.divide {
-            cells = divide::divide(cells, &mut field, objects, &slots, gain, limit)?;
+            cells = divide::divide(cells, &mut field, objects, &slots, gain, (limit, cancel))?;
         }
         Ok(Self { grid, field, cells, slots, apart })
     }
 }
 
 impl<O: PackedObjects> Built<O> {
-    fn new(objects: O, ssm: &Ssm) -> Result<Self, BuildError> {
+    fn new(objects: O, ssm: &Ssm, cancel: Cancel) -> Result<Self, BuildError> {
         let settings = ssm.settings;
-        let Laid { grid, field, cells, slots, apart } = Laid::new(&objects.shape(), ssm)?;
+        let Laid { grid, field, cells, slots, apart } =
+            Laid::new(&objects.shape(), ssm, O::bytes_of_blocks, cancel)?;
         let blocks = objects.blocks(&slots);
         let mut built = Self { settings, grid, field, cells, apart, blocks, sort: false, _objects: objects };
         built.sort = built.footprint().total() > CACHED;

@@ -1,18 +1,18 @@
 //! The part of a ray inside a grid, in the grid's finest cells: what [`Grid::clip`] gives, with fewer
 //! divisions, and prepared for walking.
 
-use accel::Ray;
-use accel::grid::Grid;
-use accel::tolerance::{INSET, LIMIT_S, LIMIT_T, PARALLEL, T_SLACK, TOUCH};
+use accel::far::Line;
+use accel::grid::{Grid, within_reach};
+use accel::tolerance::{INSET, LIMIT_S, LIMIT_T, PARALLEL, TOUCH};
+use accel::{Aabb, Ray};
 
 /// Maps a scene's coordinates to the cells of a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    low: [f64; 3],
-    high: [f64; 3],
+    bounds: Aabb,
     /// Cells for each unit of length, or 0 for an axis without extent.
     scale: [f64; 3],
-    /// The place of `low`, in cells.
+    /// The place of the lower bounds, in cells.
     first: [f64; 3],
     resolution: [u32; 3],
 }
@@ -42,44 +42,38 @@ impl Frame {
         let inner = resolution.map(|n| f64::from(n) * (1.0 - 2.0 * INSET));
         let of = |a: usize| if high[a] > low[a] { inner[a] / (high[a] - low[a]) } else { 0.0 };
         let first = |a: usize| f64::from(resolution[a]) * if high[a] > low[a] { INSET } else { 0.5 };
-        Self { low, high, scale: [of(0), of(1), of(2)], first: [first(0), first(1), first(2)], resolution }
+        Self {
+            bounds: *bounds,
+            scale: [of(0), of(1), of(2)],
+            first: [first(0), first(1), first(2)],
+            resolution,
+        }
     }
 
     /// The part of a ray inside the grid and its own range of t, or `None` where there is none.
     #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
-        let origin = ray.origin.to_array().map(f64::from);
         let direction = ray.direction.to_array().map(f64::from);
-        let mut t_start = f64::from(ray.t_min);
-        let mut t_end = f64::from(ray.t_max);
-        let mut inverse = [0.0; 3];
-        for a in 0..3 {
-            let (low, high) = (self.low[a] - origin[a], self.high[a] - origin[a]);
-            if direction[a] == 0.0 {
-                if low > 0.0 || high < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            inverse[a] = 1.0 / direction[a];
-            let (p, q) = (low * inverse[a], high * inverse[a]);
-            t_start = t_start.max(p.min(q));
-            t_end = t_end.min(p.max(q));
-        }
-        // The hit-in-padded-bounds invariant lets a hit lie a little outside of its box's range of t.
-        let slack = (T_SLACK + TOUCH) * t_start.abs().max(t_end.abs());
+        let Line { origin, moved, near, far } =
+            Line::through([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
+        let (t_min, t_max) = within_reach(f64::from(ray.t_min), f64::from(ray.t_max));
+        let t_start = near.max(t_min - moved);
+        let t_end = far.min(t_max - moved);
+        let touch = TOUCH * t_start.abs().max(t_end.abs());
         // Without end or beginning is only the range of a ray without direction; both would keep the walk from ending.
         let finite = t_start + t_end + direction[0] + direction[1] + direction[2];
-        if t_start > t_end + slack || !finite.is_finite() {
+        if t_start > t_end + touch || !finite.is_finite() {
             return None;
         }
         let span = (t_end - t_start).max(0.0);
         let inverse_span = 1.0 / span;
-        let mut way = ClippedSegment { t_start, inverse_span, ..ClippedSegment::NOWHERE };
+        let t_begin = moved + t_start;
+        let mut way = ClippedSegment { t_start: t_begin, inverse_span, ..ClippedSegment::NOWHERE };
         for a in 0..3 {
             let n = f64::from(self.resolution[a]);
             let place = |t: f64| {
-                let cell = (origin[a] + t * direction[a] - self.low[a]) * self.scale[a] + self.first[a];
+                let cell = (origin[a] + t * direction[a] - f64::from(self.bounds.min[a])) * self.scale[a]
+                    + self.first[a];
                 cell.clamp(n * INSET, n * (1.0 - INSET))
             };
             let start = place(t_start);

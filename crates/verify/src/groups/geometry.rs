@@ -1,0 +1,109 @@
+//! Geometry that nobody would draw.
+
+use super::group::Group;
+use super::subject::{Subject, Verdict};
+use crate::cases::{self, Reach, Shape};
+use accel::{Geometry, InputError, Mesh, MeshRef, Scene, Vec3};
+use primitives::KernelId;
+use scenes::Random;
+
+const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
+
+pub(super) const GROUPS: &[Group] = &[
+    Group { name: "geometry/empty", about: "no triangle", ask: empty },
+    Group {
+        name: "geometry/overlapping",
+        about: "the same triangles many times",
+        ask: |s| shape(s, Shape::Repeated, CLOSE),
+    },
+    Group {
+        name: "geometry/lattice",
+        about: "corners and edges that meet in few places",
+        ask: |s| shape(s, Shape::OnLattice, CLOSE),
+    },
+    Group { name: "geometry/flat", about: "all in one plane", ask: |s| shape(s, Shape::Sheet, CLOSE) },
+    Group {
+        name: "geometry/needles",
+        about: "triangles 100,000 times as long as wide",
+        ask: |s| shape(s, Shape::Needles, CLOSE),
+    },
+    Group {
+        name: "geometry/sizes",
+        about: "triangles of sizes from 1 to 2^-19",
+        ask: |s| shape(s, Shape::Mixed, CLOSE),
+    },
+    Group {
+        name: "geometry/garbage",
+        about: "any bits for coordinates and indices: refused, or as brute force",
+        ask: |s| shape(s, Shape::AnyBits, CLOSE),
+    },
+    Group {
+        name: "geometry/not-finite",
+        about: "NaN and infinite coordinates are refused by name",
+        ask: not_finite,
+    },
+    Group {
+        name: "geometry/small",
+        about: "a scene 2^-100 across",
+        ask: |s| shape(s, Shape::Scattered, Reach { scale: -100, ..CLOSE }),
+    },
+    Group {
+        name: "geometry/large",
+        about: "a scene 2^100 across",
+        ask: |s| shape(s, Shape::Scattered, Reach { scale: 100, ..CLOSE }),
+    },
+    Group {
+        name: "geometry/offset",
+        about: "a scene 2^20 times its size from the origin of coordinates",
+        ask: |s| shape(s, Shape::Scattered, Reach { offset: Some(20), ..CLOSE }),
+    },
+];
+
+fn empty(subject: &Subject) -> Verdict {
+    let scene = scene_of(Mesh::default());
+    let rays = cases::rays(&mut Random::new(1), &scene, &CLOSE, 64);
+    subject.hits_nothing(&scene, &rays)
+}
+
+pub(super) fn scene_of(mesh: Mesh) -> Scene {
+    let mut scene =
+        cases::scene_of(&mut Random::new(1), Shape::Sheet, &CLOSE, 0).expect("no triangle is sound");
+    scene.geometry = Geometry::Triangles(mesh);
+    scene
+}
+
+/// Twelve scenes of a shape and 256 rays in each; what is refused by name counts as one check.
+fn shape(subject: &Subject, shape: Shape, reach: Reach) -> Verdict {
+    let none = if subject.is_built_in() {
+        Verdict::Passed { checks: 0 }
+    } else {
+        Verdict::Counted { checks: 0, wrong: 0 }
+    };
+    (1..=12).fold(none, |verdict, seed| {
+        let mut numbers = Random::new(seed);
+        let Ok(scene) = cases::scene_of(&mut numbers, shape, &reach, 150) else {
+            return verdict;
+        };
+        let rays = cases::rays(&mut numbers, &scene, &reach, 256);
+        let kernel = if seed % 2 == 0 { KernelId::Exact } else { KernelId::Watertight };
+        verdict.and(subject.holds(&scene, &rays, kernel))
+    })
+}
+
+/// What every structure builds from goes through this.
+fn not_finite(_: &Subject) -> Verdict {
+    let mut checks = 0;
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for corner in 0..3 {
+            for axis in 0..3 {
+                let mut positions = [Vec3::ZERO, Vec3::X, Vec3::Y];
+                positions[corner][axis] = value;
+                match MeshRef::new(&positions, &[[0, 1, 2]]) {
+                    Err(InputError::Position { position, .. }) if position == corner => checks += 1,
+                    other => return Verdict::Wrong { what: format!("{positions:?}: {other:?}") },
+                }
+            }
+        }
+    }
+    Verdict::Passed { checks }
+}

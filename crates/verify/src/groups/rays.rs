@@ -1,0 +1,95 @@
+//! Rays that are none, or come from far away.
+
+use super::group::Group;
+use super::subject::{Subject, Verdict};
+use crate::cases::{self, Reach, Shape};
+use accel::{Ray, Scene, Vec3};
+use lanes::Level;
+use primitives::KernelId;
+use scenes::Random;
+
+pub(super) const GROUPS: &[Group] = &[
+    Group { name: "rays/inactive", about: "ranges that end before they begin hit nothing", ask: inactive },
+    Group { name: "rays/nan", about: "NaN, infinite and zero rays end and hit nothing", ask: unusable },
+    Group { name: "rays/far", about: "origins 2^10 to 2^60 times the scene's size away", ask: far },
+    Group { name: "rays/random", about: "random rays through random scenes", ask: random },
+    Group {
+        name: "rays/instructions",
+        about: "every instruction set that the machine has",
+        ask: instructions,
+    },
+];
+
+fn case(seed: u64, reach: &Reach, count: usize) -> (Scene, Vec<Ray>) {
+    let mut numbers = Random::new(seed);
+    let scene = cases::scene_of(&mut numbers, Shape::Scattered, reach, 150).expect("a sound shape");
+    let rays = cases::rays(&mut numbers, &scene, reach, count);
+    (scene, rays)
+}
+
+const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
+
+fn inactive(subject: &Subject) -> Verdict {
+    let (scene, rays) = case(3, &CLOSE, 512);
+    let ended = |ray: &Ray| Ray { t_min: 2.0, t_max: 1.0, ..*ray };
+    subject.hits_nothing(&scene, &rays.iter().map(ended).collect::<Vec<_>>())
+}
+
+fn unusable(subject: &Subject) -> Verdict {
+    let (scene, rays) = case(4, &CLOSE, 32);
+    let mut all = Vec::new();
+    for ray in &rays {
+        for axis in 0..3 {
+            for value in [f32::NAN, f32::INFINITY] {
+                let (mut origin, mut direction) = (*ray, *ray);
+                origin.origin[axis] = value;
+                direction.direction[axis] = value;
+                all.extend([origin, direction]);
+            }
+        }
+        all.push(Ray { direction: Vec3::ZERO, ..*ray });
+        all.push(Ray { t_min: f32::NAN, ..*ray });
+        all.push(Ray { t_max: f32::NAN, ..*ray });
+    }
+    subject.hits_nothing(&scene, &all)
+}
+
+fn far(subject: &Subject) -> Verdict {
+    let none = if subject.is_built_in() {
+        Verdict::Passed { checks: 0 }
+    } else {
+        Verdict::Counted { checks: 0, wrong: 0 }
+    };
+    [10, 20, 30, 40, 52, 60].into_iter().fold(none, |verdict, origins| {
+        let (scene, rays) = case(5, &Reach { origins, ..CLOSE }, 256);
+        verdict.and(subject.holds(&scene, &rays, KernelId::Exact))
+    })
+}
+
+fn random(subject: &Subject) -> Verdict {
+    let none = if subject.is_built_in() {
+        Verdict::Passed { checks: 0 }
+    } else {
+        Verdict::Counted { checks: 0, wrong: 0 }
+    };
+    (10..22).fold(none, |verdict, seed| {
+        let (scene, rays) = case(seed, &CLOSE, 512);
+        let kernel = if seed % 2 == 0 { KernelId::Exact } else { KernelId::MollerTrumbore };
+        verdict.and(subject.holds(&scene, &rays, kernel))
+    })
+}
+
+fn instructions(subject: &Subject) -> Verdict {
+    if !subject.takes("simd") {
+        return Verdict::NotAsked { why: "it chooses its instructions itself" };
+    }
+    let (scene, rays) = case(6, &CLOSE, 512);
+    Level::ALL.into_iter().filter(|level| level.available()).fold(
+        Verdict::Passed { checks: 0 },
+        |verdict, level| {
+            let spec = subject.spec(KernelId::Exact, Some(("simd", level.id()))).to_string();
+            let compared = crate::compare::compare(&scene, &rays, &spec, 64);
+            verdict.and(Verdict::of(compared.map(|done| done.rays).map_err(|wrong| wrong.to_string())))
+        },
+    )
+}
