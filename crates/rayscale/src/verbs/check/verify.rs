@@ -62,7 +62,7 @@ fn text(verification: &Verification) -> String {
             }
         });
         let cells: Vec<String> = std::iter::once(question.to_owned()).chain(cells).collect();
-        table.push(cells.iter().map(|cell| Value::text(cell)));
+        table.push(cells.iter().map(Value::text));
     }
     let notes: String = notes.iter().enumerate().map(|(i, why)| format!("\n({}) {why}", i + 1)).collect();
     let meaning = "✓: so many checks, all as promised; `n of m`: a library that promises nothing of the kind gave n wrong \
