@@ -1,5 +1,7 @@
 //! Statistics of samples.
 
+use scenes::Random;
+
 /// What is quoted of a set of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
@@ -67,7 +69,7 @@ pub fn cluster_bootstrap(
     if groups.is_empty() {
         return Vec::new();
     }
-    let (mut random, mut within) = (SplitMix(seed), SplitMix(!seed));
+    let (mut random, mut within) = (Random::new(seed), Random::new(!seed));
     let mut drawn = vec![Vec::new(); groups.len()];
     let mut draw = || {
         for drawn in &mut drawn {
@@ -78,23 +80,6 @@ pub fn cluster_bootstrap(
         statistic(&drawn)
     };
     (0..draws).map(|_| draw()).collect()
-}
-
-/// SplitMix64 (Steele, Lea & Flood 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        ((u128::from(self.next()) * n as u128) >> 64) as usize
-    }
 }
 
 #[cfg(test)]
