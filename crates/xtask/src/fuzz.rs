@@ -16,15 +16,18 @@ pub fn seconds(args: &[String]) -> Result<u64, String> {
     match args {
         [] => Ok(SECONDS),
         [option, text] if option == "--time" => {
-            let (number, unit) = text.split_at(text.len() - usize::from(!text.ends_with(char::is_numeric)));
+            let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit()).len();
+            let (number, unit) = text.split_at(digits);
             let factor = match unit {
                 "" | "s" => 1,
                 "m" => 60,
                 "h" => 3600,
                 _ => return Err(format!("`{text}` is no duration such as 90s, 10m or 1h")),
             };
-            let number: u64 = number.parse().map_err(|_| format!("`{text}` is no duration such as 10m"))?;
-            Ok(number * factor)
+            let number: Option<u64> = number.parse().ok();
+            number
+                .and_then(|n| n.checked_mul(factor))
+                .ok_or_else(|| format!("`{text}` is no duration such as 10m"))
         }
         _ => Err("fuzz takes --time DURATION and nothing else".to_owned()),
     }
