@@ -8,7 +8,7 @@ use std::borrow::Cow;
 /// Height of text in a drawing, in its units.
 pub const TEXT: f64 = 11.0;
 
-/// A width that the text does not exceed at size [`TEXT`] in the usual sans-serif fonts; DejaVu
+/// A width that the text does not exceed at the size of all text in the usual sans-serif fonts; DejaVu
 /// Sans is the widest of them.
 pub fn width(text: &str) -> f64 {
     let em = |c: char| match c {
