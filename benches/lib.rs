@@ -1,6 +1,6 @@
 //! Criterion benches over the registry of `rayscale`: what they share.
 
-use accel::{Accel, Hit, Need, RaySet, Scene};
+use accel::{Accel, Hit, RaySet, Scene, Workload};
 use criterion::{Criterion, Throughput};
 use harness::measure::memory_rows;
 use harness::record::Layout;
@@ -40,7 +40,7 @@ pub fn scene(id: &str) -> Scene {
 /// If the scene has no such rays.
 pub fn rays(scene: &Scene, id: RaysId, size: u32) -> RaySet {
     let grid = registry::parse("ssm").expect("an entry");
-    let tracer = grid.builder.build(scene, &Need::GENERAL).unwrap_or_else(|error| panic!("{error}"));
+    let tracer = grid.builder.build(scene, &Workload::GENERAL).unwrap_or_else(|error| panic!("{error}"));
     let spec = RaysSpec { id, rows: size, cols: size, seed: 1 };
     generate(scene, &spec, tracer.as_ref()).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -48,7 +48,7 @@ pub fn rays(scene: &Scene, id: RaysId, size: u32) -> RaySet {
 /// Built for the rays, or `None` where the structure doesn't serve them.
 pub fn build<'s>(choice: &Choice, scene: &'s Scene, rays: &RaySet) -> Option<Box<dyn Accel + 's>> {
     harness::registry::keep_to_one_thread();
-    choice.builder.build(scene, &Need::of(rays)).ok()
+    choice.builder.build(scene, &Workload::of(rays)).ok()
 }
 
 /// Does `work` on one thread.

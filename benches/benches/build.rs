@@ -1,6 +1,6 @@
 //! Time to build for rays of any kind, in objects per second.
 
-use accel::Need;
+use accel::Workload;
 use benches::{PAPER_SCENES, SCENES, all_structures, on_one_thread, scene, structures};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -18,11 +18,11 @@ fn build(c: &mut Criterion) {
             .warm_up_time(Duration::from_millis(300))
             .measurement_time(Duration::from_secs(1));
         for choice in structures {
-            if choice.builder.build(&scene, &Need::GENERAL).is_ok() {
+            if choice.builder.build(&scene, &Workload::GENERAL).is_ok() {
                 group.bench_function(choice.spec.to_string(), |b| {
                     on_one_thread(|| {
                         b.iter_with_large_drop(|| {
-                            black_box(choice.builder.build(&scene, &Need::GENERAL).ok())
+                            black_box(choice.builder.build(&scene, &Workload::GENERAL).ok())
                         })
                     });
                 });

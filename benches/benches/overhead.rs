@@ -1,7 +1,7 @@
 //! What the harness adds: `Accel::trace` of a structure against a bare loop around its library's own
 //! call, on small-100k/parallel. Pairs take turns; printed is the median of the pairs' ratios.
 
-use accel::{Geometry, Hit, Mesh, Need, RaySet, Scene};
+use accel::{Geometry, Hit, Mesh, RaySet, Scene, Workload};
 use benches::{on_one_thread, rays, scene};
 use harness::{registry, stats};
 use obvhs::cwbvh::builder::build_cwbvh_from_tris;
@@ -84,7 +84,7 @@ fn obvhs(scene: &Scene, mesh: &Mesh, rays: &RaySet, pairs: usize) {
 
 fn compare(id: &str, scene: &Scene, rays: &RaySet, pairs: usize, bare: impl Fn(&mut [Option<Hit>])) {
     let choice = registry::parse(id).expect("an entry");
-    let accel = choice.builder.build(scene, &Need::GENERAL).expect("triangles are served");
+    let accel = choice.builder.build(scene, &Workload::GENERAL).expect("triangles are served");
     let (mut ours, mut theirs) = (vec![None; rays.len()], vec![None; rays.len()]);
     let time = |work: &mut dyn FnMut()| {
         let start = Instant::now();

@@ -2,7 +2,7 @@
 //! objects, scenes, grid arithmetic, tolerances and memory footprints.
 //!
 //! Every structure stands behind [`Accel`] and is made by a [`Builder`] from a [`Scene`] and
-//! a [`Need`]. What a structure knows of the scene is [`Objects`].
+//! a [`Workload`]. What a structure knows of the scene is [`Objects`].
 
 #![forbid(unsafe_code)]
 
@@ -39,4 +39,4 @@ pub use objects::{Bounds, Objects};
 pub use ray::{Hit, Nearest, Ray, RayError, Surface};
 pub use rayset::{Common, Projection, Raster, RaySet};
 pub use scene::{Corners, Geometry, Mesh, MeshRef, Scene, View};
-pub use structure::{Accel, BuildError, Builder, Count, Counters, Need, NoCount, for_each_ray};
+pub use structure::{Accel, BuildError, Builder, Count, Counters, NoCount, Workload, for_each_ray};

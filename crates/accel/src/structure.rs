@@ -63,16 +63,16 @@ pub fn for_each_ray<T: Send>(rays: &RaySet, out: &mut [T], of: impl Fn(&Ray) -> 
     });
 }
 
-/// What a workload requires. A structure builds nothing that the need doesn't name.
+/// What a structure is built for. It builds nothing that the workload doesn't name.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Need {
+pub struct Workload {
     /// Primary rays of this image.
     pub raster: Option<crate::Raster>,
     /// Any rays whatever.
     pub general: bool,
 }
 
-impl Need {
+impl Workload {
     /// Any rays whatever.
     pub const GENERAL: Self = Self { raster: None, general: true };
 
@@ -98,13 +98,13 @@ pub trait Builder: Send + Sync {
     /// The settings, as `name=value` separated by blanks.
     fn settings(&self) -> String;
 
-    /// Builds for a scene and a need, in the current rayon pool.
+    /// Builds for a scene and a workload, in the current rayon pool.
     ///
-    /// Rays that the need doesn't name may get no answer from the result: they panic.
+    /// Rays that the workload doesn't name may get no answer from the result: they panic.
     ///
     /// # Errors
-    /// Where the structure can't serve this scene or need, or its memory would not fit.
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError>;
+    /// Where the structure can't serve this scene or workload, or its memory would not fit.
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError>;
 
     /// [`Builder::build`] that gives up soon after it is asked to. By default it looks before building and after;
     /// builders that may take long look in between.
@@ -114,11 +114,11 @@ pub trait Builder: Send + Sync {
     fn build_unless<'s>(
         &self,
         scene: &'s Scene,
-        need: &Need,
+        workload: &Workload,
         cancel: Cancel,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
         cancel.check(self.id())?;
-        let built = self.build(scene, need)?;
+        let built = self.build(scene, workload)?;
         cancel.check(self.id())?;
         Ok(built)
     }

@@ -3,8 +3,8 @@
 
 use accel::tolerance::{BALL, T_SLACK};
 use accel::{
-    Aabb, Accel, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, Need, NoCount, Objects, Ray,
-    RaySet, Scene, Vec3, vec_bytes,
+    Aabb, Accel, BuildError, Builder, Count, Counters, Footprint, Hit, Nearest, NoCount, Objects, Ray,
+    RaySet, Scene, Vec3, Workload, vec_bytes,
 };
 use lanes::PackedObjects;
 use primitives::{KernelId, WithObjects};
@@ -143,7 +143,7 @@ macro_rules! builder {
                 format!("kernel={}", self.kernel)
             }
 
-            fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+            fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
                 Ok(primitives::with_objects(scene, self.kernel, Build::<$volume>(std::marker::PhantomData)))
             }
         }

@@ -1,7 +1,7 @@
 //! Brute force: every object tested for every ray.
 
 use accel::parallel::for_each_chunk;
-use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Need, Ray, RaySet, Scene};
+use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Ray, RaySet, Scene, Workload};
 use lanes::{BLOCK, Blocks, Level, PackedObjects, Simd, Task};
 use primitives::{KernelId, WithObjects};
 
@@ -30,7 +30,7 @@ impl Builder for Brute {
         format!("kernel={} simd={}", self.kernel, self.simd.id())
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         struct Build(Level);
         impl<'s> WithObjects<'s> for Build {
             type Out = Box<dyn Accel + 's>;

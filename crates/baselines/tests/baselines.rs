@@ -1,7 +1,7 @@
 //! The reference methods against the reference.
 
 use accel::testing::cloud;
-use accel::{Builder, Need};
+use accel::{Builder, Workload};
 use baselines::{Brute, MinMax, Sphere};
 use primitives::KernelId;
 
@@ -10,10 +10,10 @@ fn bounding_volumes_lose_nothing() {
     let (scene, rays) = cloud(500, 3000);
     for kernel in KernelId::ALL {
         let mut reference = vec![None; rays.len()];
-        Brute::new(kernel).build(&scene, &Need::GENERAL).unwrap().trace(&rays, &mut reference);
+        Brute::new(kernel).build(&scene, &Workload::GENERAL).unwrap().trace(&rays, &mut reference);
         assert!(reference.iter().flatten().count() > 500);
         for builder in [&MinMax { kernel } as &dyn Builder, &Sphere { kernel }] {
-            let built = builder.build(&scene, &Need::GENERAL).unwrap();
+            let built = builder.build(&scene, &Workload::GENERAL).unwrap();
             let mut hits = vec![None; rays.len()];
             built.trace(&rays, &mut hits);
             assert_eq!(hits, reference, "{} {kernel}", builder.id());
@@ -34,7 +34,7 @@ fn an_empty_scene_has_no_hits() {
         [&Brute::new(KernelId::Watertight) as &dyn Builder, &MinMax { kernel: KernelId::Watertight }]
     {
         let mut hits = vec![None; rays.len()];
-        builder.build(&scene, &Need::GENERAL).unwrap().trace(&rays, &mut hits);
+        builder.build(&scene, &Workload::GENERAL).unwrap().trace(&rays, &mut hits);
         assert!(hits.iter().all(Option::is_none));
     }
 }

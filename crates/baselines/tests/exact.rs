@@ -1,7 +1,7 @@
 //! Brute force with the exact kernel against the oracle.
 #![cfg(feature = "exact")]
 
-use accel::{Builder, Corners, Geometry, Mesh, Need, Ray, RaySet, Scene, Vec3, View};
+use accel::{Builder, Corners, Geometry, Mesh, Ray, RaySet, Scene, Vec3, View, Workload};
 use baselines::Brute;
 use lanes::ROW;
 use oracle::{Oracle, Verdict, classify};
@@ -44,7 +44,7 @@ fn compare(list: &[Corners], rays: Vec<Ray>) -> Result<u32, TestCaseError> {
     let scene = scene(list);
     let oracle = Oracle::new(list.iter().copied());
     let brute =
-        Brute::new(KernelId::Exact).build(&scene, &Need::GENERAL).expect("brute force takes any scene");
+        Brute::new(KernelId::Exact).build(&scene, &Workload::GENERAL).expect("brute force takes any scene");
     let rays = RaySet::List(rays);
     let mut hits = vec![None; rays.len()];
     brute.trace(&rays, &mut hits);

@@ -1,8 +1,8 @@
 //! `bmssm-dense` against brute force: identical hits, whatever the scene, the rays and the settings.
 
 use accel::{
-    Aabb, Accel, BuildError, Builder, Geometry, Group, Hit, Mesh, Need, Projection, Raster, Ray, RaySet,
-    Scene, Vec3, View,
+    Aabb, Accel, BuildError, Builder, Geometry, Group, Hit, Mesh, Projection, Raster, Ray, RaySet, Scene,
+    Vec3, View, Workload,
 };
 use baselines::Brute;
 use bmssm::suite::dense::{Axis, BmssmDense};
@@ -40,21 +40,25 @@ fn hits(accel: &dyn Accel, rays: &RaySet) -> Vec<Option<Hit>> {
 /// Traces in every way and holds all answers to brute force; returns the number of hits.
 fn compare(scene: &Scene, rays: &RaySet, settings: &str) -> usize {
     let builder = builder(settings);
-    let reference = hits(&*Brute::new(builder.settings.kernel).build(scene, &Need::of(rays)).unwrap(), rays);
-    let both = Need { general: true, ..Need::of(rays) };
-    for need in [Need::of(rays), both, Need::GENERAL] {
-        let built = builder.build(scene, &need).unwrap();
+    let reference =
+        hits(&*Brute::new(builder.settings.kernel).build(scene, &Workload::of(rays)).unwrap(), rays);
+    let both = Workload { general: true, ..Workload::of(rays) };
+    for workload in [Workload::of(rays), both, Workload::GENERAL] {
+        let built = builder.build(scene, &workload).unwrap();
         for (index, (found, wanted)) in hits(&*built, rays).iter().zip(&reference).enumerate() {
             let same = match (found, wanted) {
                 (Some(a), Some(b)) => a.same_bits(b),
                 (a, b) => a.is_none() && b.is_none(),
             };
-            assert!(same, "{settings} {need:?}: {:?} gives {found:?}, not {wanted:?}", rays.ray(index));
+            assert!(same, "{settings} {workload:?}: {:?} gives {found:?}, not {wanted:?}", rays.ray(index));
         }
         let mut occluded = vec![false; rays.len()];
         built.trace_occluded(rays, &mut occluded);
-        assert!(occluded.iter().zip(&reference).all(|(o, hit)| *o == hit.is_some()), "{settings} {need:?}");
-        if need.general {
+        assert!(
+            occluded.iter().zip(&reference).all(|(o, hit)| *o == hit.is_some()),
+            "{settings} {workload:?}"
+        );
+        if workload.general {
             for (index, wanted) in reference.iter().enumerate().step_by(7) {
                 assert_eq!(built.closest(&rays.ray(index)), *wanted);
                 assert_eq!(built.occluded(&rays.ray(index)), wanted.is_some());
@@ -231,13 +235,13 @@ fn the_footprint_is_the_maps_that_the_need_names() {
         right: Vec3::X,
         down: Vec3::Y,
     };
-    let structure = |need: &Need, settings: &str| {
-        builder(settings).build(&scene, need).unwrap().footprint().bytes(Group::Structure)
+    let structure = |workload: &Workload, settings: &str| {
+        builder(settings).build(&scene, workload).unwrap().footprint().bytes(Group::Structure)
     };
-    assert_eq!(structure(&Need::GENERAL, "resolution=16") * 8, 3 * 16 * 128);
-    assert_eq!(structure(&Need::GENERAL, "resolution=4x8x2") * 8, (4 + 8 + 2) * 128);
-    assert_eq!(structure(&Need::raster(raster), "resolution=16") * 8, (24 + 32) * 128);
-    let both = Need { raster: Some(raster), general: true };
+    assert_eq!(structure(&Workload::GENERAL, "resolution=16") * 8, 3 * 16 * 128);
+    assert_eq!(structure(&Workload::GENERAL, "resolution=4x8x2") * 8, (4 + 8 + 2) * 128);
+    assert_eq!(structure(&Workload::raster(raster), "resolution=16") * 8, (24 + 32) * 128);
+    let both = Workload { raster: Some(raster), general: true };
     assert_eq!(structure(&both, "resolution=16") * 8, (24 + 32 + 3 * 16) * 128);
     assert_eq!(Axis::bytes_of(16, 128) * 8, 16 * 128);
 }
@@ -247,11 +251,11 @@ fn impossible_settings_are_errors_before_anything_is_allocated() {
     let scene = lattice();
     let mut dense = builder("memory=1000");
     dense.settings.resolution = bmssm::suite::dense::Resolution::Same(16_384);
-    let error = dense.build(&scene, &Need::GENERAL).err().unwrap();
+    let error = dense.build(&scene, &Workload::GENERAL).err().unwrap();
     let bytes = 3 * 16_384 * 16;
     assert_eq!(error, BuildError::TooLarge { structure: "bmssm-dense".into(), bytes, limit: 1000 });
     dense.settings.resolution = bmssm::suite::dense::Resolution::Same(0);
-    assert!(matches!(dense.build(&scene, &Need::GENERAL), Err(BuildError::Setting { .. })));
+    assert!(matches!(dense.build(&scene, &Workload::GENERAL), Err(BuildError::Setting { .. })));
     assert!(matches!(dense.set("resolution", "0"), Err(BuildError::Setting { .. })));
 }
 
@@ -262,7 +266,7 @@ fn the_mailbox_saves_tests_and_the_plan_tells_what_was_built() {
     );
     let scene = lattice();
     let tests = |settings: &str| {
-        let built = builder(settings).build(&scene, &Need::GENERAL).unwrap();
+        let built = builder(settings).build(&scene, &Workload::GENERAL).unwrap();
         assert_eq!(built.plan(), "16 × 16 × 16 slices");
         built.count(&rays, false).unwrap().tests
     };

@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release --example own_structure`
 
-use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Need, Objects, Ray, Scene};
+use accel::{Accel, BuildError, Builder, Footprint, Hit, Nearest, Objects, Ray, Scene, Workload};
 use harness::registry::{Choice, Entry, KERNEL, Traits};
 use harness::sweeps::differences::{self, Sweep};
 use harness::workload::Subject;
@@ -45,7 +45,7 @@ impl Builder for Sort {
         format!("kernel={}", self.0)
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         Ok(with_objects(scene, self.0, Sort(self.0)))
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example structures`
 
-use accel::{Builder, Need, Ray, RaySet, Vec3};
+use accel::{Builder, Ray, RaySet, Vec3, Workload};
 use scenes::rays::perspective;
 use std::error::Error;
 
@@ -25,7 +25,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let scene = scenes::load(&"bumps-2k".parse()?)?;
     for builder in builders() {
         // Any rays: the structure is built for all of them.
-        let accel = builder.build(&scene, &Need::GENERAL)?;
+        let accel = builder.build(&scene, &Workload::GENERAL)?;
         let ray = Ray::new(Vec3::new(0.0, 0.0, 9.0), Vec3::NEG_Z);
         let hit = accel.closest(&ray).ok_or("the ray meets the sphere")?;
         println!("{}: triangle {} at t = {}", builder.id(), hit.object, hit.t);
@@ -33,7 +33,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
 
         // One image: the structure is built for its primary rays alone.
         let raster = perspective(&scene.view, 48, 64);
-        let image = builder.build(&scene, &Need::raster(raster))?;
+        let image = builder.build(&scene, &Workload::raster(raster))?;
         let mut hits = vec![None; raster.len()];
         image.trace(&RaySet::Raster(raster), &mut hits);
         println!("  {} of {} pixels hit", hits.iter().flatten().count(), hits.len());

@@ -1,4 +1,4 @@
-//! The harness: workloads, checks, measurements, records, and what is read off records.
+//! The harness: ray sets, checks, measurements, records, and what is read off records.
 //!
 //! A measurement goes through the modules in this order. [`workload`] makes the rays of a scene; [`registry`] names
 //! the structures; [`auto`] decides the kernels that are left to the suite; [`check`] holds answers to brute force and

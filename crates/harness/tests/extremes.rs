@@ -1,7 +1,7 @@
 //! Every structure of the suite's own with every kernel on extreme scenes and rays: what brute
 //! force answers with that kernel, and with the exact kernel what the oracle says.
 
-use accel::{Accel, Builder, Geometry, Hit, Need, RaySet, Scene};
+use accel::{Accel, Builder, Geometry, Hit, RaySet, Scene, Workload};
 use baselines::Brute;
 use harness::check::oracle_of;
 use harness::registry;
@@ -16,7 +16,7 @@ fn load(id: &str) -> Scene {
 
 /// All ray sets that the scene has.
 fn ray_sets(scene: &Scene, side: u32) -> Vec<(RaysId, RaySet)> {
-    let tracer = Brute::new(KernelId::Exact).build(scene, &Need::GENERAL).unwrap();
+    let tracer = Brute::new(KernelId::Exact).build(scene, &Workload::GENERAL).unwrap();
     let spec = |id| RaysSpec { id, rows: side, cols: side, seed: 3 };
     let all = RaysId::ALL.into_iter();
     all.filter_map(|id| Some((id, generate(scene, &spec(id), tracer.as_ref()).ok()?))).collect()
@@ -48,7 +48,7 @@ fn check(id: &str, side: u32) -> usize {
     let sets = ray_sets(&scene, side);
     let mut compared = 0;
     for kernel in KernelId::ALL {
-        let brute = Brute::new(kernel).build(&scene, &Need::GENERAL).unwrap();
+        let brute = Brute::new(kernel).build(&scene, &Workload::GENERAL).unwrap();
         let references: Vec<_> = sets.iter().map(|(_, rays)| answers(brute.as_ref(), rays)).collect();
         if kernel == KernelId::Exact {
             for ((set, rays), reference) in sets.iter().zip(&references) {
@@ -69,12 +69,12 @@ fn check(id: &str, side: u32) -> usize {
         }
         for entry in registry::entries().iter().filter(|e| e.traits.built_in && e.id != "brute") {
             let choice = registry::parse(&format!("{}:kernel={kernel}", entry.id)).unwrap();
-            let general = choice.builder.build(&scene, &Need::GENERAL).unwrap();
+            let general = choice.builder.build(&scene, &Workload::GENERAL).unwrap();
             for ((set, rays), reference) in sets.iter().zip(&references) {
                 let raster;
                 let accel = match rays {
                     RaySet::Raster(_) => {
-                        raster = choice.builder.build(&scene, &Need::of(rays)).unwrap();
+                        raster = choice.builder.build(&scene, &Workload::of(rays)).unwrap();
                         &raster
                     }
                     RaySet::List(_) => &general,
@@ -138,8 +138,8 @@ fn kernels_see_the_same_scene_at_every_scale() {
         let scaled = load(&format!("bumps-1k@scale={exponent}"));
         let factor = 2f64.powi(exponent) as f32;
         for kernel in [KernelId::MollerTrumbore, KernelId::Watertight, KernelId::Exact] {
-            let small = Brute::new(kernel).build(&plain, &Need::GENERAL).unwrap();
-            let large = Brute::new(kernel).build(&scaled, &Need::GENERAL).unwrap();
+            let small = Brute::new(kernel).build(&plain, &Workload::GENERAL).unwrap();
+            let large = Brute::new(kernel).build(&scaled, &Workload::GENERAL).unwrap();
             let mut hits = 0;
             for (set, rays) in sets.iter().filter(|(set, _)| !matches!(set, RaysId::Directions)) {
                 for i in 0..rays.len() {

@@ -2,7 +2,7 @@
 //! force does, and with the exact kernel that is the truth.
 
 use accel::tolerance::FAR;
-use accel::{Accel, Builder, Hit, Need, Ray, RaySet, Scene, Vec3};
+use accel::{Accel, Builder, Hit, Ray, RaySet, Scene, Vec3, Workload};
 use baselines::Brute;
 use harness::registry;
 use oracle::{Verdict, classify};
@@ -52,7 +52,7 @@ fn with_ends(rays: Vec<Ray>, accel: &dyn Accel) -> RaySet {
 fn check(scene: &Scene, power: i32, count: u64, kernels: &[KernelId]) {
     let oracle = harness::check::oracle_of(scene);
     for kernel in kernels {
-        let brute = Brute::new(*kernel).build(scene, &Need::GENERAL).unwrap();
+        let brute = Brute::new(*kernel).build(scene, &Workload::GENERAL).unwrap();
         let rays = with_ends(rays(power, count), brute.as_ref());
         let expected = answers(brute.as_ref(), &rays);
         if *kernel == KernelId::Exact {
@@ -64,7 +64,7 @@ fn check(scene: &Scene, power: i32, count: u64, kernels: &[KernelId]) {
         }
         for entry in registry::entries().iter().filter(|e| e.traits.built_in) {
             let choice = registry::parse(&format!("{}:kernel={kernel}", entry.id)).unwrap();
-            let built = choice.builder.build(scene, &Need::GENERAL).unwrap();
+            let built = choice.builder.build(scene, &Workload::GENERAL).unwrap();
             for (i, hit) in answers(built.as_ref(), &rays).iter().enumerate() {
                 let (ray, expected) = (rays.ray(i), expected[i]);
                 assert!(

@@ -4,8 +4,8 @@
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{
-    Aabb, Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Nearest, Need, Objects, Ray, Scene,
-    Surface,
+    Aabb, Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Nearest, Objects, Ray, Scene, Surface,
+    Workload,
 };
 use bmssm::suite::general::{General, Settings};
 use harness::registry::{Choice, ChosenKernel, Entry};
@@ -206,7 +206,7 @@ impl Builder for Planted {
         String::new()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         let Geometry::Triangles(mesh) = &scene.geometry else {
             return Err(BuildError::Unsupported { structure: "planted".into(), what: "boxes".into() });
         };

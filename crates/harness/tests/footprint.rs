@@ -1,12 +1,12 @@
 //! Every footprint is held to what the allocator saw.
 
-use accel::{Need, Projection, Raster, Scene, Vec3};
+use accel::{Projection, Raster, Scene, Vec3, Workload};
 use harness::registry;
 
 #[global_allocator]
 static ALLOCATOR: heap::Counting = heap::Counting;
 
-fn needs(scene: &Scene) -> [Need; 2] {
+fn workloads(scene: &Scene) -> [Workload; 2] {
     let bounds = scene.geometry.bounds();
     let extent = bounds.extent();
     let raster = Raster {
@@ -18,7 +18,7 @@ fn needs(scene: &Scene) -> [Need; 2] {
         right: Vec3::X * (extent.x / 128.0),
         down: Vec3::NEG_Y * (extent.y / 96.0),
     };
-    [Need::GENERAL, Need::raster(raster)]
+    [Workload::GENERAL, Workload::raster(raster)]
 }
 
 /// Alone in its file: other tests' allocations would count as well.
@@ -30,11 +30,11 @@ fn footprints_are_what_was_allocated() {
         let scene = scenes::load(&id.parse().unwrap()).unwrap();
         for spec in registry::with_variants(|entry| entry.traits.counted) {
             let choice = registry::choose(&spec).unwrap();
-            for need in needs(&scene) {
+            for workload in workloads(&scene) {
                 // What a library or the thread pool allocates once, at its first use, belongs to no structure;
                 // threads that begin to work late do so in a later build.
                 let observed = (0..4).filter_map(|_| {
-                    let (built, used) = heap::observe(|| choice.builder.build(&scene, &need));
+                    let (built, used) = heap::observe(|| choice.builder.build(&scene, &workload));
                     let used = used.expect("counting");
                     Some((built.ok()?.footprint().total() as i64, used))
                 });
@@ -42,7 +42,7 @@ fn footprints_are_what_was_allocated() {
                 let Some((said, used)) = observed.min_by_key(off) else { continue };
                 let slack = (used.left / 100).max(4096);
                 if (said - used.left).abs() > slack || used.peak < used.left as u64 {
-                    let what = if need.general { "general" } else { "raster" };
+                    let what = if workload.general { "general" } else { "raster" };
                     wrong.push(format!("{spec} on {id}, {what}: says {said}, allocated {}", used.left));
                 }
             }

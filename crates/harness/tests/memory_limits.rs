@@ -1,6 +1,6 @@
 //! Grids and dense maps never take more memory than they may, on the way to being built included.
 
-use accel::{Geometry, Mesh, Need, Scene, Vec3, View};
+use accel::{Geometry, Mesh, Scene, Vec3, View, Workload};
 use harness::registry::{self, guarded_build};
 
 #[global_allocator]
@@ -42,7 +42,7 @@ fn peaks_are_within_limits() {
             for limit in [50_000u64, 300_000, 1_000_000, 5_000_000, 30_000_000] {
                 let spec: registry::StructureSpec = structure.parse().unwrap();
                 let choice = registry::choose(&spec.with("memory", &limit.to_string())).unwrap();
-                let build = || guarded_build(&choice, &scene, &Need::GENERAL).map(drop);
+                let build = || guarded_build(&choice, &scene, &Workload::GENERAL).map(drop);
                 let (made, used) = heap::observe(build);
                 let used = used.expect("counting");
                 match made {

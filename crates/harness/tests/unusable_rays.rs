@@ -1,7 +1,7 @@
 //! Rays that [`accel::Ray::validate`] turns down, given to the structures all the same: every walk ends, and
 //! no triangle is hit.
 
-use accel::{Accel, Need, Ray, RaySet, Vec3};
+use accel::{Accel, Ray, RaySet, Vec3, Workload};
 use harness::registry;
 use primitives::KernelId;
 use scenes::SceneSpec;
@@ -30,7 +30,7 @@ fn every_walk_ends_and_no_triangle_is_hit() {
     let list = RaySet::List(rays.clone());
     let mut tried = 0;
     for spec in registry::with_variants(|entry| entry.traits.built_in) {
-        let built = registry::choose(&spec).unwrap().builder.build(&scene, &Need::GENERAL).unwrap();
+        let built = registry::choose(&spec).unwrap().builder.build(&scene, &Workload::GENERAL).unwrap();
         let mut hits = vec![None; rays.len()];
         built.trace(&list, &mut hits);
         let mut occluded = vec![false; rays.len()];

@@ -1,6 +1,6 @@
 //! Image consistency (Skala 1993, §2): objects with a 0 in V or W can't be hit by any ray of the image.
 
-use accel::{Accel, BuildError, Builder, Geometry, Hit, Need, Raster, RaySet, Scene, Vec3};
+use accel::{Accel, BuildError, Builder, Geometry, Hit, Raster, RaySet, Scene, Vec3, Workload};
 use baselines::Brute;
 use bmssm::suite::dense::{BmssmDense, ImageMaps};
 use image::{Rgb, RgbImage};
@@ -111,7 +111,7 @@ pub fn evaluate(scene: &Scene) -> Result<(Consistency, RgbImage), BuildError> {
 fn trace(scene: &Scene, raster: Raster) -> Result<Vec<Option<Hit>>, BuildError> {
     let rays = RaySet::Raster(raster);
     let mut hits = vec![None; rays.len()];
-    BmssmDense::default().build(scene, &Need::of(&rays))?.trace(&rays, &mut hits);
+    BmssmDense::default().build(scene, &Workload::of(&rays))?.trace(&rays, &mut hits);
     Ok(hits)
 }
 
@@ -149,7 +149,8 @@ fn paint(
 pub fn holds(scene: &Scene, raster: Raster, unseen: &[u32]) -> Result<bool, BuildError> {
     let rays = RaySet::Raster(raster);
     let mut hits = vec![None; rays.len()];
-    let brute: Box<dyn Accel + '_> = Brute::new(KernelId::MollerTrumbore).build(scene, &Need::of(&rays))?;
+    let brute: Box<dyn Accel + '_> =
+        Brute::new(KernelId::MollerTrumbore).build(scene, &Workload::of(&rays))?;
     brute.trace(&rays, &mut hits);
     Ok(!hits.iter().flatten().any(|hit| unseen.binary_search(&hit.object).is_ok()))
 }

@@ -1,7 +1,7 @@
 //! Large objects split into small facets (Skala 1993, §2): what it does to candidates, time and memory.
 
 use super::timing::medians;
-use accel::{BuildError, Builder, Geometry, Group, Mesh, Need, Ray, RaySet, Scene};
+use accel::{BuildError, Builder, Geometry, Group, Mesh, Ray, RaySet, Scene, Workload};
 use bmssm::suite::dense::{BmssmDense, Resolution};
 use scenes::Random;
 use scenes::rays;
@@ -92,7 +92,7 @@ fn measure(
     rays: &RaySet,
     rounds: usize,
 ) -> Result<(f64, f64, usize), BuildError> {
-    let built = dense.build(scene, &Need::of(rays))?;
+    let built = dense.build(scene, &Workload::of(rays))?;
     let candidates = built.count(rays, false).map_or(0, |c| c.candidates);
     let mut hits = vec![None; rays.len()];
     let ns = medians(rounds, &mut [&mut |_| built.trace(rays, &mut hits)])[0];

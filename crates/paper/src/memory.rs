@@ -2,7 +2,7 @@
 
 use super::experiment::scene;
 use super::secondary::boxes;
-use accel::{Aabb, Builder, Group, Need, Objects};
+use accel::{Aabb, Builder, Group, Objects, Workload};
 use bmssm::suite::dense::{BmssmDense, Resolution};
 use primitives::Boxes;
 use serde::{Deserialize, Serialize};
@@ -169,7 +169,7 @@ fn build(n: u32, p: u32, r: f64, references: f64) -> Option<(f64, f64, f64)> {
     let q = ids.map(touched).sum::<u64>() as f64 / grid.cells() as f64;
     let scene = scene(boxes);
     let bytes = |builder: &dyn Builder| {
-        let built = builder.build(&scene, &Need::GENERAL).ok()?;
+        let built = builder.build(&scene, &Workload::GENERAL).ok()?;
         Some(built.footprint().bytes(Group::Structure) as f64)
     };
     let mut dense = BmssmDense::default();

@@ -6,8 +6,8 @@ use crate::settings::Settings;
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{
-    Accel, Bounds, BuildError, Builder, Cancel, Count, Counters, Footprint, Hit, Nearest, Need, NoCount,
-    Objects, Ray, RaySet, Scene, for_each_ray,
+    Accel, Bounds, BuildError, Builder, Cancel, Count, Counters, Footprint, Hit, Nearest, NoCount, Objects,
+    Ray, RaySet, Scene, Workload, for_each_ray,
 };
 use lanes::{PackedObjects, Simd, Task};
 use primitives::WithObjects;
@@ -50,14 +50,14 @@ impl Builder for SsmList {
         self.settings.display()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        self.build_unless(scene, need, Cancel::NEVER)
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
+        self.build_unless(scene, workload, Cancel::NEVER)
     }
 
     fn build_unless<'s>(
         &self,
         scene: &'s Scene,
-        _: &Need,
+        _: &Workload,
         cancel: Cancel,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
         primitives::with_objects(scene, self.settings.kernel, Build(self.settings, cancel))

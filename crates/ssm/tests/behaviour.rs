@@ -2,7 +2,7 @@
 
 mod common;
 
-use accel::{BuildError, Builder, Group, Need};
+use accel::{BuildError, Builder, Group, Workload};
 use common::{cloud, rays};
 use ssm::suite::{Resolution, Settings, Ssm, SsmList};
 
@@ -26,7 +26,7 @@ fn settings_that_make_no_sense_are_named() {
         }
     }
     let (zero, scene) = (Settings::new(Resolution::Slices([0, 4, 4])), cloud(10, 0.1));
-    let refused = SsmList { settings: zero }.build(&scene, &Need::GENERAL);
+    let refused = SsmList { settings: zero }.build(&scene, &Workload::GENERAL);
     assert!(matches!(refused, Err(BuildError::Setting { .. })));
 }
 
@@ -56,20 +56,20 @@ fn too_large_a_grid_is_refused_before_it_is_allocated() {
     let scene = cloud(100, 0.1);
     let settings = Settings::new(Resolution::Slices([16_384; 3]));
     for builder in [&SsmList { settings } as &dyn Builder, &Ssm { settings, divide: None }] {
-        let Err(BuildError::TooLarge { bytes, limit, .. }) = builder.build(&scene, &Need::GENERAL) else {
+        let Err(BuildError::TooLarge { bytes, limit, .. }) = builder.build(&scene, &Workload::GENERAL) else {
             panic!("2^42 cells were built");
         };
         assert!(bytes > 1 << 43 && limit > 0);
     }
     let settings = Settings { memory: Some(2200), ..Settings::new(Resolution::Slices([8; 3])) };
     for builder in [&SsmList { settings } as &dyn Builder, &Ssm { settings, divide: None }] {
-        let Err(BuildError::TooLarge { bytes, limit: 2200, .. }) = builder.build(&scene, &Need::GENERAL)
+        let Err(BuildError::TooLarge { bytes, limit: 2200, .. }) = builder.build(&scene, &Workload::GENERAL)
         else {
             panic!("more than 2200 bytes were taken");
         };
         let fits = Settings { memory: Some(bytes.max(1 << 16)), ..settings };
-        Ssm { settings: fits, divide: None }.build(&scene, &Need::GENERAL).unwrap();
-        SsmList { settings: fits }.build(&scene, &Need::GENERAL).unwrap();
+        Ssm { settings: fits, divide: None }.build(&scene, &Workload::GENERAL).unwrap();
+        SsmList { settings: fits }.build(&scene, &Workload::GENERAL).unwrap();
     }
 }
 
@@ -77,7 +77,7 @@ fn too_large_a_grid_is_refused_before_it_is_allocated() {
 fn the_papers_layout_takes_what_the_paper_says_but_for_the_pointer() {
     let scene = cloud(500, 0.1);
     let list = SsmList { settings: Settings::new(Resolution::Slices([10; 3])) };
-    let footprint = list.build(&scene, &Need::GENERAL).unwrap().footprint();
+    let footprint = list.build(&scene, &Workload::GENERAL).unwrap().footprint();
     let bytes = |name| footprint.parts.iter().find(|part| part.name == name).unwrap().bytes;
     assert_eq!((bytes("counters"), bytes("pointers")), (2 * 1000, 4 * 1000));
     assert!(bytes("ids") > 2 * 500);
@@ -89,7 +89,7 @@ fn counters_tell_what_early_ends_and_mailboxes_save() {
     let scene = cloud(2000, 0.1);
     let rays = rays(&scene, 500);
     for builder in [&SsmList::default() as &dyn Builder, &Ssm::default()] {
-        let built = builder.build(&scene, &Need::GENERAL).unwrap();
+        let built = builder.build(&scene, &Workload::GENERAL).unwrap();
         let nearest = built.count(&rays, false).unwrap();
         let any = built.count(&rays, true).unwrap();
         assert!(nearest.cells > 0 && nearest.tests > 0 && nearest.candidates > 0);

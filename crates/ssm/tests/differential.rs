@@ -2,7 +2,7 @@
 
 mod common;
 
-use accel::{Builder, Geometry, Mesh, Need, Scene, Vec3};
+use accel::{Builder, Geometry, Mesh, Scene, Vec3, Workload};
 use common::{boxes, cloud, compare, mesh, moved, rays, scene};
 use lanes::Level;
 use primitives::KernelId;
@@ -22,7 +22,7 @@ fn builders(settings: Settings) -> [Box<dyn Builder>; 4] {
 fn check(scene: &Scene, count: usize, settings: Settings) {
     let rays = rays(scene, count);
     for builder in builders(settings) {
-        let built = builder.build(scene, &Need::GENERAL).unwrap();
+        let built = builder.build(scene, &Workload::GENERAL).unwrap();
         let what = format!("{} {}", builder.id(), builder.settings());
         compare(scene, settings.kernel, &rays, &what, &*built);
     }

@@ -9,7 +9,7 @@ mod rounding;
 
 use crate::judged::{Judged, Set};
 use crate::timing::times;
-use accel::{Accel, Geometry, Group, Need, RaySet, Scene};
+use accel::{Accel, Geometry, Group, RaySet, Scene, Workload};
 use harness::registry::{self, guarded_build};
 use harness::workload::{pick, sample};
 use judge::{Judge, Tally};
@@ -79,7 +79,7 @@ pub fn of(scene: &Scene, judge: &Judge, sets: &[Set], on_judges: OnJudges) -> Ve
     for structure in STRUCTURES {
         let build = |kernel: &str, scene| {
             let choice = registry::parse(&format!("{structure}:kernel={kernel}")).ok()?;
-            guarded_build(&choice, scene, &Need::GENERAL).ok()
+            guarded_build(&choice, scene, &Workload::GENERAL).ok()
         };
         let mut built: Vec<(Precise, Box<dyn Accel + '_>)> = Vec::new();
         let blank = |precision: &str, bits, packed, bytes_per_triangle| Precise {

@@ -1,6 +1,6 @@
 //! The extremes: where single precision ends.
 
-use accel::{Geometry, Mesh, Need, Ray, RaySet, Scene, Vec3, View};
+use accel::{Geometry, Mesh, Ray, RaySet, Scene, Vec3, View, Workload};
 use harness::guard::guard;
 use harness::registry::{self, Choice, guarded_build};
 use harness::workload::{pick, sample};
@@ -72,7 +72,7 @@ fn judge(case: &Case, choices: &[Choice]) -> Extreme {
     let truth = Truth(fair.iter().map(|i| truth.0[*i]).collect());
     let answer = |choice: &Choice| {
         let mut hits = vec![None; rays.len()];
-        let found = guarded_build(choice, &case.scene, &Need::GENERAL)
+        let found = guarded_build(choice, &case.scene, &Workload::GENERAL)
             .map_err(|failure| failure.to_string())
             .and_then(|accel| {
                 guard("tracing", || accel.trace(&rays, &mut hits)).map_err(|error| error.to_string())

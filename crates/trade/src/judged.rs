@@ -2,7 +2,7 @@
 
 use accel::{Accel, RaySet};
 use harness::answers::Answers;
-use harness::workload::{Workload, pick, sample};
+use harness::workload::{RayQuery, pick, sample};
 use judge::{Bounds, Counts, Errors, Judge, Kind, Tally, Truth};
 use scenes::rays::Query;
 use serde::{Deserialize, Serialize};
@@ -20,12 +20,12 @@ pub struct Set {
 }
 
 impl Set {
-    /// The rays of a workload, decided; `heard` is told how many are.
-    pub fn decide(judge: &Judge, workload: &Workload, heard: &mut dyn FnMut(usize)) -> Self {
+    /// The rays of a set, decided; `heard` is told how many are.
+    pub fn decide(judge: &Judge, asked: &RayQuery, heard: &mut dyn FnMut(usize)) -> Self {
         // A list even of an image: structures are judged as they are built for any rays.
-        let rays = pick(&workload.rays, &(0..workload.rays.len()).collect::<Vec<_>>());
+        let rays = pick(&asked.rays, &(0..asked.rays.len()).collect::<Vec<_>>());
         let truth = judge.truth(&rays, heard);
-        Self { name: workload.id.name().to_owned(), query: workload.query, rays, truth }
+        Self { name: asked.id.name().to_owned(), query: asked.query, rays, truth }
     }
 
     /// At most so many rays of it, spread evenly.

@@ -1,6 +1,6 @@
 //! Rays that leave surfaces: how many hit the surface that they leave, and how many begin beyond another.
 
-use accel::{Corners, Geometry, Hit, Need, Ray, RaySet, Scene};
+use accel::{Corners, Geometry, Hit, Ray, RaySet, Scene, Workload};
 use harness::registry::{self, guarded_build};
 use judge::{Bounds, Judge, Spread, Tolerance};
 use primitives::KernelId;
@@ -76,7 +76,7 @@ pub fn of(scene: &Scene, size: u32) -> Vec<Leaving> {
     let mut all = Vec::new();
     for kernel in KERNELS {
         let Ok(choice) = registry::parse(&format!("ssm:kernel={kernel}")) else { continue };
-        let Ok(accel) = guarded_build(&choice, scene, &Need::GENERAL) else { continue };
+        let Ok(accel) = guarded_build(&choice, scene, &Workload::GENERAL) else { continue };
         let mut hits = vec![None; image.len()];
         accel.trace(&image, &mut hits);
         let found: Vec<(Ray, Hit)> =

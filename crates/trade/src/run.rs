@@ -2,7 +2,7 @@
 
 use crate::judged::{Judged, Set};
 use crate::{FORMAT, Row, Trade, curve, extremes, leaving, mark_front};
-use accel::{Geometry, Need, Scene};
+use accel::{Geometry, Scene, Workload};
 use harness::guard::guard;
 use harness::machine::Machine;
 use harness::measure::{Deadline, Failure, Job, Options, measure};
@@ -10,7 +10,7 @@ use harness::progress::{Event, Listener};
 use harness::record::{Cell, SceneEntry, Skipped, Suite};
 use harness::registry::{self, Choice, StructureSpec, guarded_build};
 use harness::stats::geometric_mean;
-use harness::workload::{self, Workload, Workloads, batches};
+use harness::workload::{self, RayQueries, RayQuery, batches};
 use judge::{Judge, Tally, Tolerance};
 use primitives::KernelId;
 use scenes::rays::RaysId;
@@ -182,25 +182,25 @@ struct Work<'w, L> {
 }
 
 impl<L: Listener> Work<'_, L> {
-    fn make(&self, sets: &[RaysId], size: u32, skipped: &mut Vec<Skipped>) -> Vec<Workload> {
-        let Workloads { made, left_out } = workload::make(self.scene, sets, size, self.plan.seed);
+    fn make(&self, sets: &[RaysId], size: u32, skipped: &mut Vec<Skipped>) -> Vec<RayQuery> {
+        let RayQueries { made, left_out } = workload::make(self.scene, sets, size, self.plan.seed);
         skipped.extend(left_out.iter().map(|(id, error)| Skipped::rays(&self.scene.id, id, error)));
         made
     }
 
     /// Ray sets with their exact answers, by all judges.
     fn decide(&mut self, sets: &[RaysId], size: u32, skipped: &mut Vec<Skipped>) -> Vec<Set> {
-        let workloads = self.make(sets, size, skipped);
+        let queries = self.make(sets, size, skipped);
         let (judge, judges) = (self.judge, self.judges);
         let mut all = Vec::new();
-        for workload in &workloads {
-            let (rays, of) = (workload.id, workload.rays.len());
+        for asked in &queries {
+            let (rays, of) = (asked.id, asked.rays.len());
             // The listener stays on this thread: the judges report through a channel.
             let (send, receive) = std::sync::mpsc::channel();
             let set = std::thread::scope(|scope| {
                 let working = scope.spawn(move || {
                     on(judges, || {
-                        Set::decide(judge, workload, &mut |done| {
+                        Set::decide(judge, asked, &mut |done| {
                             // Nobody is left to hear when the study was given up.
                             let _ = send.send(done);
                         })
@@ -225,21 +225,15 @@ impl<L: Listener> Work<'_, L> {
         let timed = self.make(&plan.timed, plan.size, skipped);
         let choices = &*harness::auto::resolve(choices, scene, &batches(&timed));
         let deadline = Deadline::default();
-        let job = Job {
-            scene,
-            workloads: &timed,
-            choices,
-            options: &plan.options,
-            known: &[],
-            deadline: &deadline,
-        };
+        let job =
+            Job { scene, queries: &timed, choices, options: &plan.options, known: &[], deadline: &deadline };
         let mut cells: Vec<Cell> = Vec::new();
         let listener = &mut *self.listener;
-        measure(&job, |workload, pass, more| {
-            cells.retain(|cell| cell.rays != workload.id.name());
+        measure(&job, |asked, pass, more| {
+            cells.retain(|cell| cell.rays != asked.id.name());
             cells.extend(more);
             listener.hear(&Event::RaySetDone {
-                rays: workload.id,
+                rays: asked.id,
                 pass: pass + 1,
                 passes: plan.options.passes(),
             });
@@ -291,7 +285,7 @@ fn judged(
     options: &Options,
     sorts: [&[Set]; 2],
 ) -> Result<[Sort; 2], Failure> {
-    let accel = guarded_build(choice, scene, &Need::GENERAL)?;
+    let accel = guarded_build(choice, scene, &Workload::GENERAL)?;
     let few = (options.linear_tests / scene.geometry.len().max(1) as u64).max(16) as usize;
     let one = |sets: &[Set]| -> Result<Sort, Failure> {
         let mut sum = Tally::default();
@@ -371,7 +365,7 @@ mod tests {
                 let choice = registry::parse(&format!("{structure}:kernel={kernel}")).unwrap();
                 let found = [&single, &double].map(|scene| {
                     let judge = Judge::new(scene, Tolerance::VISIBLE);
-                    let accel = guarded_build(&choice, scene, &Need::GENERAL).unwrap();
+                    let accel = guarded_build(&choice, scene, &Workload::GENERAL).unwrap();
                     let mut sum = Tally::default();
                     for set in &sets {
                         sum.extend(Set::decide(&judge, set, &mut |_| {}).judge(&judge, accel.as_ref()));

@@ -1,6 +1,6 @@
 //! One structure held to brute force and to the oracle.
 
-use accel::{Builder, Hit, Need, Ray, RaySet, Scene};
+use accel::{Builder, Hit, Ray, RaySet, Scene, Workload};
 use baselines::Brute;
 use harness::check::oracle_of;
 use harness::guard::guard;
@@ -53,12 +53,13 @@ pub fn compare(scene: &Scene, rays: &[Ray], spec: &str, exact: usize) -> Result<
         |ray: Option<&Ray>, what: String| Difference { structure: spec.into(), ray: ray.copied(), what };
     let choice = registry::parse(spec).map_err(|error| wrong(None, error.to_string()))?;
     let kernel = choice.built_in_kernel().unwrap_or(KernelId::Exact);
-    let built = match guarded_build(&choice, scene, &Need::GENERAL) {
+    let built = match guarded_build(&choice, scene, &Workload::GENERAL) {
         Ok(built) => built,
         Err(failure) if failure.is_too_large() => return Ok(Compared::default()),
         Err(failure) => return Err(wrong(None, failure.to_string())),
     };
-    let brute = Brute::new(kernel).build(scene, &Need::GENERAL).map_err(|e| wrong(None, e.to_string()))?;
+    let brute =
+        Brute::new(kernel).build(scene, &Workload::GENERAL).map_err(|e| wrong(None, e.to_string()))?;
     let set = RaySet::List(rays.to_vec());
     let (mut expected, mut hits) = (vec![None; rays.len()], vec![None; rays.len()]);
     let mut occluded = vec![false; rays.len()];

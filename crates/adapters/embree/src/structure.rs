@@ -1,7 +1,7 @@
 //! Embree as structures of the comparison.
 
 use accel::{
-    Accel, BuildError, Builder, Footprint, Geometry, Hit, Need, Raster, Ray, RaySet, Scene, for_each_ray,
+    Accel, BuildError, Builder, Footprint, Geometry, Hit, Raster, Ray, RaySet, Scene, Workload, for_each_ray,
 };
 use rayon::prelude::*;
 
@@ -124,7 +124,7 @@ impl Builder for EmbreeBuilder {
         text
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         let Geometry::Triangles(mesh) = &scene.geometry else {
             return Err(self.unsupported("boxes: Embree has triangles"));
         };

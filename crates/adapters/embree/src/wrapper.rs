@@ -5,7 +5,7 @@
 
 use std::fmt::Display;
 
-use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Need, Ray, Scene};
+use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Ray, Scene, Workload};
 use embree4_rs::geometry::TriangleMeshGeometry;
 use embree4_rs::{CommittedScene, SceneOptions};
 
@@ -31,7 +31,7 @@ impl Builder for WrapperBuilder {
         "quality=medium".to_owned()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         let Geometry::Triangles(mesh) = &scene.geometry else {
             let what = "boxes: Embree has triangles".to_owned();
             return Err(BuildError::Unsupported { structure: ID.to_owned(), what });

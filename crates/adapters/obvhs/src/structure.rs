@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Need, Ray, Scene};
+use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Ray, Scene, Workload};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::cwbvh::CwBvh;
@@ -101,7 +101,7 @@ impl Builder for ObvhsBuilder {
         format!("build={}{triangles}", self.preset.id())
     }
 
-    fn build<'s>(&self, scene: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         if scene.geometry.is_empty() {
             return Ok(Box::new(Nothing));
         }

@@ -3,7 +3,7 @@
 //!
 //! The primary rays of a raster take the maps of its rows and columns ([`ImageMaps`]), all other rays
 //! those of slices along x, y and z ([`SpaceMaps`]) and a walk from cell to cell. Only what the
-//! need names is built.
+//! workload names is built.
 
 mod axis;
 mod detail;
@@ -20,7 +20,7 @@ pub use settings::{Loop, Settings};
 pub use space::SpaceMaps;
 
 use accel::grid::Grid;
-use accel::{Accel, Bounds, BuildError, Builder, Need, Scene};
+use accel::{Accel, Bounds, BuildError, Builder, Scene, Workload};
 use detail::{Appendix, Detail, Words};
 use lanes::PackedObjects;
 use primitives::WithObjects;
@@ -54,28 +54,28 @@ impl Builder for BmssmDense {
         self.settings.to_string()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        primitives::with_objects(scene, self.settings.kernel, Build(self.settings, *need))
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
+        primitives::with_objects(scene, self.settings.kernel, Build(self.settings, *workload))
     }
 }
 
-struct Build(Settings, Need);
+struct Build(Settings, Workload);
 
 impl<'s> WithObjects<'s> for Build {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
 
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
-        let Self(settings, need) = self;
+        let Self(settings, workload) = self;
         let order: Vec<u32> = (0..objects.len() as u32).collect();
-        let maps = Maps::new(&objects.shape(), &settings, &need)?;
+        let maps = Maps::new(&objects.shape(), &settings, &workload)?;
         Ok(match settings.walk {
-            Loop::Appendix => Box::new(maps.with(Appendix(objects), &settings, &need)),
-            Loop::Words => Box::new(maps.with(Words(objects.blocks(&order)), &settings, &need)),
+            Loop::Appendix => Box::new(maps.with(Appendix(objects), &settings, &workload)),
+            Loop::Words => Box::new(maps.with(Words(objects.blocks(&order)), &settings, &workload)),
         })
     }
 }
 
-/// The maps that a need asks for.
+/// The maps that a workload asks for.
 struct Maps {
     objects: usize,
     image: Option<ImageMaps>,
@@ -83,30 +83,30 @@ struct Maps {
 }
 
 impl Maps {
-    fn new<B: Bounds>(objects: &B, settings: &Settings, need: &Need) -> Result<Self, BuildError> {
+    fn new<B: Bounds>(objects: &B, settings: &Settings, workload: &Workload) -> Result<Self, BuildError> {
         settings.resolution.check().map_err(|problem| setting("resolution", problem))?;
-        let grid = (need.general && !objects.is_empty())
+        let grid = (workload.general && !objects.is_empty())
             .then(|| {
                 let bounds = space::bounds_of(objects);
                 Grid::new(bounds, settings.resolution.slices(objects, &bounds))
             })
             .transpose()
             .map_err(|error| setting("resolution", error.to_string()))?;
-        let bytes = need.raster.map_or(0, |raster| ImageMaps::bytes_of(&raster, objects.len()))
+        let bytes = workload.raster.map_or(0, |raster| ImageMaps::bytes_of(&raster, objects.len()))
             + grid.map_or(0, |grid| SpaceMaps::bytes_of(grid.resolution(), objects.len()));
         let limit = settings.memory.unwrap_or_else(accel::available_memory);
         if bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes, limit });
         }
-        let image = need.raster.map(|raster| ImageMaps::new(objects, raster));
+        let image = workload.raster.map(|raster| ImageMaps::new(objects, raster));
         let space = grid.map(|grid| SpaceMaps::new(objects, grid));
         Ok(Self { objects: objects.len(), image, space })
     }
 
-    fn with<D: Detail>(self, detail: D, settings: &Settings, need: &Need) -> Built<D> {
+    fn with<D: Detail>(self, detail: D, settings: &Settings, workload: &Workload) -> Built<D> {
         let Self { objects, image, space } = self;
         let plan = plan(image.as_ref(), space.as_ref());
-        let (simd, mailbox, general) = (settings.simd, settings.mailbox, need.general);
+        let (simd, mailbox, general) = (settings.simd, settings.mailbox, workload.general);
         Built { detail, image, space, objects, simd, mailbox, general, plan }
     }
 }

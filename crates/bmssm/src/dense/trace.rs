@@ -10,7 +10,7 @@ use lanes::{Level, Portable, Simd, Task};
 /// Rays traced by one task of the thread pool.
 const CHUNK: usize = 1024;
 
-/// The maps a need asked for, and the detail tests.
+/// The maps a workload asked for, and the detail tests.
 pub struct Built<D> {
     pub detail: D,
     pub image: Option<ImageMaps>,

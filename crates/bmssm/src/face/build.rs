@@ -2,7 +2,7 @@
 
 use super::{Bmssm, Camera, Image, Options};
 use crate::fast::Build;
-use accel::{Accel, BuildError, MeshRef, Need, Objects, Position};
+use accel::{Accel, BuildError, MeshRef, Objects, Position, Workload};
 use primitives::{Guarded, WithObjects, with_triangles};
 
 impl<'s> Bmssm<'s> {
@@ -53,7 +53,7 @@ impl Options {
         positions: &'s [P],
         triangles: &'s [[u32; 3]],
     ) -> Result<Bmssm<'s>, BuildError> {
-        self.mesh(positions, triangles, Need::GENERAL).map(Bmssm::new)
+        self.mesh(positions, triangles, Workload::GENERAL).map(Bmssm::new)
     }
 
     /// See [`Bmssm::build_objects`].
@@ -61,7 +61,7 @@ impl Options {
     /// # Errors
     /// Those of [`Bmssm::build_objects`].
     pub fn build_objects<'s, O: Objects>(&self, objects: &'s O) -> Result<Bmssm<'s>, BuildError> {
-        self.objects(objects, Need::GENERAL).map(Bmssm::new)
+        self.objects(objects, Workload::GENERAL).map(Bmssm::new)
     }
 
     /// See [`Bmssm::for_image`].
@@ -74,7 +74,7 @@ impl Options {
         positions: &'s [P],
         triangles: &'s [[u32; 3]],
     ) -> Result<Image<'s>, BuildError> {
-        let built = self.mesh(positions, triangles, Need::raster(*camera.raster()))?;
+        let built = self.mesh(positions, triangles, Workload::raster(*camera.raster()))?;
         Ok(Image::new(built, *camera))
     }
 
@@ -87,7 +87,7 @@ impl Options {
         camera: &Camera,
         objects: &'s O,
     ) -> Result<Image<'s>, BuildError> {
-        let built = self.objects(objects, Need::raster(*camera.raster()))?;
+        let built = self.objects(objects, Workload::raster(*camera.raster()))?;
         Ok(Image::new(built, *camera))
     }
 
@@ -95,13 +95,17 @@ impl Options {
         &self,
         positions: &'s [P],
         triangles: &'s [[u32; 3]],
-        need: Need,
+        workload: Workload,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
         let mesh = MeshRef::new(positions, triangles)?;
-        with_triangles(mesh, self.settings.kernel, Build { settings: self.settings, need })
+        with_triangles(mesh, self.settings.kernel, Build { settings: self.settings, workload })
     }
 
-    fn objects<'s, O: Objects>(&self, objects: &'s O, need: Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        Build { settings: self.settings, need }.objects(Guarded::new(objects)?)
+    fn objects<'s, O: Objects>(
+        &self,
+        objects: &'s O,
+        workload: Workload,
+    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+        Build { settings: self.settings, workload }.objects(Guarded::new(objects)?)
     }
 }

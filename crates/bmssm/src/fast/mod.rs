@@ -1,5 +1,5 @@
 //! `bmssm`: the fast structure. One image is served by maps in image space ([`crate::raster`]), all
-//! other rays by blocks with maps of their own ([`crate::general`]); only what the need names is
+//! other rays by blocks with maps of their own ([`crate::general`]); only what the workload names is
 //! built.
 
 mod plan;
@@ -10,7 +10,7 @@ pub use crate::general::Storage;
 pub use plan::Plan;
 pub use settings::Settings;
 
-use accel::{Accel, BuildError, Builder, Need, Scene};
+use accel::{Accel, BuildError, Builder, Scene, Workload};
 use lanes::PackedObjects;
 use primitives::WithObjects;
 use serve::Built;
@@ -47,8 +47,8 @@ impl Builder for Bmssm {
         self.settings.to_string()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        let build = Build { settings: self.settings, need: *need };
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
+        let build = Build { settings: self.settings, workload: *workload };
         primitives::with_objects(scene, self.settings.kernel, build)
     }
 }
@@ -56,7 +56,7 @@ impl Builder for Bmssm {
 /// Builds for objects of any kind.
 pub(crate) struct Build {
     pub settings: Settings,
-    pub need: Need,
+    pub workload: Workload,
 }
 
 impl<'s> WithObjects<'s> for Build {
@@ -64,7 +64,7 @@ impl<'s> WithObjects<'s> for Build {
 
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
-        let plan = Plan::new(&self.settings, objects.len(), &self.need, limit);
+        let plan = Plan::new(&self.settings, objects.len(), &self.workload, limit);
         if plan.bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
         }

@@ -1,9 +1,9 @@
-//! What is built for a scene and a need, and why.
+//! What is built for a scene and a workload, and why.
 
 use super::Settings;
 use crate::general::Storage;
 use crate::{general, raster};
-use accel::{Need, Raster};
+use accel::{Raster, Workload};
 use lanes::BLOCK;
 use std::fmt;
 
@@ -24,12 +24,12 @@ pub struct Plan {
 
 impl Plan {
     /// Plans for a scene of so many objects, to take at most `limit` bytes where that can be.
-    pub fn new(settings: &Settings, objects: usize, need: &Need, limit: u128) -> Self {
+    pub fn new(settings: &Settings, objects: usize, workload: &Workload, limit: u128) -> Self {
         let mut reasons = Vec::new();
         let mut bytes = 0;
-        let raster = need.raster.map(|image| {
+        let raster = workload.raster.map(|image| {
             reasons.push(format!(
-                "image maps over {} row and {} column slices of {} pixels: the need names a raster; none in depth",
+                "image maps over {} row and {} column slices of {} pixels: the workload names a raster; none in depth",
                 image.rows.div_ceil(raster::THICKNESS),
                 image.cols.div_ceil(raster::THICKNESS),
                 raster::THICKNESS
@@ -37,7 +37,7 @@ impl Plan {
             bytes += objects as u128 * u128::from(RASTER_BYTES);
             (image, settings.raster())
         });
-        let general = need.general.then(|| {
+        let general = workload.general.then(|| {
             let blocks = objects.div_ceil(BLOCK) as u128;
             let least = bytes + blocks * GENERAL_BLOCK_BYTES;
             let rows = least + blocks * ROWS_BLOCK_BYTES;
@@ -71,7 +71,7 @@ fn stretch(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> us
     };
     reasons.push(format!(
         "{} blocks of up to {BLOCK} objects with {} slices an axis, split by clusters of neighbours down to \
-         {stretch} objects ({why}) and then object by object: the need names rays of any kind",
+         {stretch} objects ({why}) and then object by object: the workload names rays of any kind",
         objects.div_ceil(BLOCK),
         lanes::path::SLICES
     ));

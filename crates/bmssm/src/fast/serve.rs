@@ -40,7 +40,7 @@ impl<O: PackedObjects> Built<O> {
     }
 
     fn general(&self) -> &General<O> {
-        self.general.as_ref().expect("a need that names no rays allows none to be traced")
+        self.general.as_ref().expect("a workload that names no rays allows none to be traced")
     }
 
     fn trace_general<T: Send>(&self, rays: &RaySet, out: &mut [T], of: impl Fn(&[Ray], &mut [T]) + Sync) {

@@ -28,13 +28,13 @@ fn list() -> RaySet {
 fn every_need_is_served_with_what_it_names() {
     let scene = scene();
     let image = image();
-    let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Need::GENERAL).unwrap();
-    let both = Need { raster: Some(image), general: true };
-    for need in [Need::raster(image), Need::GENERAL, both] {
-        let built = Bmssm::default().build(&scene, &need).unwrap();
+    let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Workload::GENERAL).unwrap();
+    let both = Workload { raster: Some(image), general: true };
+    for workload in [Workload::raster(image), Workload::GENERAL, both] {
+        let built = Bmssm::default().build(&scene, &workload).unwrap();
         let mut sets = Vec::new();
-        sets.extend(need.raster.map(RaySet::Raster));
-        sets.extend(need.general.then(list));
+        sets.extend(workload.raster.map(RaySet::Raster));
+        sets.extend(workload.general.then(list));
         for set in &sets {
             let (mut hits, mut reference) = (vec![None; set.len()], vec![None; set.len()]);
             built.trace(set, &mut hits);
@@ -49,23 +49,23 @@ fn every_need_is_served_with_what_it_names() {
             assert!(built.count(set, false).unwrap().tests > 0);
         }
         let names: Vec<_> = built.footprint().parts.iter().map(|part| part.name).collect();
-        assert_eq!(names.contains(&"tree"), need.general, "{names:?}");
-        assert_eq!(built.plan().contains("image maps"), need.raster.is_some());
+        assert_eq!(names.contains(&"tree"), workload.general, "{names:?}");
+        assert_eq!(built.plan().contains("image maps"), workload.raster.is_some());
     }
 }
 
 #[test]
 fn the_plan_bounds_what_is_built() {
     let scene = scene();
-    for need in [Need::raster(image()), Need::GENERAL] {
+    for workload in [Workload::raster(image()), Workload::GENERAL] {
         let bmssm = Bmssm::default();
-        let plan = Plan::new(&bmssm.settings, scene.geometry.len(), &need, u128::MAX);
-        let footprint = bmssm.build(&scene, &need).unwrap().footprint();
+        let plan = Plan::new(&bmssm.settings, scene.geometry.len(), &workload, u128::MAX);
+        let footprint = bmssm.build(&scene, &workload).unwrap().footprint();
         assert!(footprint.bytes(Group::Structure) > 0);
         assert!(footprint.total() as u128 <= plan.bytes + 4096, "{footprint:?} {}", plan.bytes);
         let mut tight = bmssm;
         tight.set("memory", "1000").unwrap();
-        assert!(matches!(tight.build(&scene, &need), Err(BuildError::TooLarge { limit: 1000, .. })));
+        assert!(matches!(tight.build(&scene, &workload), Err(BuildError::TooLarge { limit: 1000, .. })));
     }
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use accel::testing::{Numbers, scene};
-use accel::{Aabb, Builder, Geometry, Mesh, Need, RaySet, Vec3};
+use accel::{Aabb, Builder, Geometry, Mesh, RaySet, Vec3, Workload};
 use baselines::Brute;
 use lanes::{BLOCK, EMPTY_SLOT, PackedObjects};
 use primitives::{KernelId, WithObjects};
@@ -124,7 +124,7 @@ fn assert_no_differences(geometry: Geometry, rays: &[Ray]) -> usize {
     let scene = scene(geometry);
     let mut hits = 0;
     for kernel in KernelId::ALL {
-        let brute = Brute::new(kernel).build(&scene, &Need::GENERAL).unwrap();
+        let brute = Brute::new(kernel).build(&scene, &Workload::GENERAL).unwrap();
         let mut reference = vec![None; rays.len()];
         brute.trace(&RaySet::List(rays.to_vec()), &mut reference);
         hits = reference.iter().flatten().count();

@@ -1,7 +1,7 @@
 use super::*;
 use crate::fast;
 use accel::testing::{Numbers, scene};
-use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Projection, RaySet, Scene, Vec3};
+use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Projection, RaySet, Scene, Vec3, Workload};
 use baselines::Brute;
 use lanes::{PackedObjects, Simd, Task};
 use primitives::WithObjects;
@@ -71,13 +71,13 @@ fn same(a: &Option<Hit>, b: &Option<Hit>) -> bool {
 /// Compares with brute force bit for bit; returns the number of hits.
 fn check(scene: &Scene, raster: &Raster, settings: Settings) -> usize {
     let rays = RaySet::Raster(*raster);
-    let need = Need::raster(*raster);
+    let workload = Workload::raster(*raster);
     let mut expected = vec![None; rays.len()];
-    let brute = Brute::new(settings.kernel).build(scene, &need).expect("brute force");
+    let brute = Brute::new(settings.kernel).build(scene, &workload).expect("brute force");
     brute.trace(&rays, &mut expected);
     let Settings { kernel, simd, tile, depth_bits, apart } = settings;
     let settings = fast::Settings { kernel, simd, tile, depth_bits, apart, ..fast::Settings::default() };
-    let built = fast::Bmssm { settings }.build(scene, &need).expect("a raster is served");
+    let built = fast::Bmssm { settings }.build(scene, &workload).expect("a raster is served");
     let mut hits = vec![Some(Hit { t: -1.0, object: 7, u: 0.0, v: 0.0 }); rays.len()];
     built.trace(&rays, &mut hits);
     for (i, (hit, expected)) in hits.iter().zip(&expected).enumerate() {

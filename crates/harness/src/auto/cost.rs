@@ -6,7 +6,7 @@ use crate::guard::guard;
 use crate::registry::{Choice, guarded_build};
 use crate::stats::geometric_mean;
 use crate::workload::{Batch, in_time, subsample};
-use accel::{Need, Scene};
+use accel::{Scene, Workload};
 use primitives::KernelId;
 use std::time::Duration;
 
@@ -38,9 +38,9 @@ pub fn costs(choice: &Choice, scene: &Scene, batches: &[Batch], kernels: &[Kerne
 fn batch_costs(choices: &[Choice], scene: &Scene, batch: &Batch) -> Vec<Option<f64>> {
     let traits = &choices[0].entry.traits;
     let mut rays = subsample(batch.rays, MOST_RAYS);
-    let need = if traits.by_need { Need::of(&rays) } else { Need::GENERAL };
-    let built: Vec<_> = choices.iter().map(|choice| guarded_build(choice, scene, &need).ok()).collect();
-    if let Some(accel) = built.iter().flatten().next().filter(|_| need.raster.is_none()) {
+    let workload = if traits.by_workload { Workload::of(&rays) } else { Workload::GENERAL };
+    let built: Vec<_> = choices.iter().map(|choice| guarded_build(choice, scene, &workload).ok()).collect();
+    if let Some(accel) = built.iter().flatten().next().filter(|_| workload.raster.is_none()) {
         rays = in_time(accel.as_ref(), &rays, batch.query, ROUND_TIME).into_owned();
     }
     let clock = Clock::of(rayon::current_num_threads());

@@ -121,7 +121,7 @@ mod tests {
     use super::*;
     use crate::record::Query;
     use crate::{registry, testing};
-    use accel::{Need, RaySet};
+    use accel::{RaySet, Workload};
 
     fn both(rays: &RaySet) -> [Batch<'_>; 2] {
         [Query::Closest, Query::Occluded].map(|query| Batch { rays, query })
@@ -183,7 +183,7 @@ mod tests {
         let batches = both(&rays);
         let choices = ["ssm:kernel=auto", "minmax:kernel=watertight", "obvhs-bvh2"]
             .map(|id| registry::parse(id).unwrap());
-        assert!(choices[0].builder.build(&scene, &Need::GENERAL).is_err(), "it is not decided");
+        assert!(choices[0].builder.build(&scene, &Workload::GENERAL).is_err(), "it is not decided");
         assert!(choices[0].builder.settings().contains("kernel=auto"));
         let mut limited = choices.to_vec();
         limited[0].kernel = ChosenKernel::Auto { limits: at_most(0.0) };
@@ -195,7 +195,7 @@ mod tests {
         assert!(matches!(resolve(&decided, &scene, &[]), Cow::Borrowed(_)));
         let rays = RaySet::List(vec![rays.ray(0)]);
         let mut hits = [None];
-        decided[0].builder.build(&scene, &Need::GENERAL).unwrap().trace(&rays, &mut hits);
+        decided[0].builder.build(&scene, &Workload::GENERAL).unwrap().trace(&rays, &mut hits);
         assert!(hits[0].is_some());
     }
 }

@@ -3,7 +3,7 @@
 use crate::answers::Answers;
 use crate::record::Query;
 use crate::workload::{pick, sample};
-use accel::{Accel, Builder, Need, RaySet, Scene};
+use accel::{Accel, Builder, RaySet, Scene, Workload};
 use baselines::Brute;
 use primitives::KernelId;
 
@@ -20,7 +20,8 @@ impl Reference {
     /// Brute force by `kernel` over at most `tests` ray-object tests, one ray at least, on all threads of
     /// the current pool. Fewer rays than the set has are a sample of it.
     pub fn new(scene: &Scene, rays: &RaySet, query: Query, kernel: KernelId, tests: u64) -> Self {
-        let brute = Brute::new(kernel).build(scene, &Need::GENERAL).expect("brute force serves every scene");
+        let brute =
+            Brute::new(kernel).build(scene, &Workload::GENERAL).expect("brute force serves every scene");
         Self::by(brute.as_ref(), scene.geometry.len(), rays, query, tests)
     }
 

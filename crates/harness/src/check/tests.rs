@@ -5,7 +5,7 @@ use crate::answers::Answers;
 use crate::record::Query;
 use crate::testing;
 use ::judge::{Judge, Tolerance};
-use accel::{Accel, Footprint, Hit, Need, Ray, RaySet, Scene};
+use accel::{Accel, Footprint, Hit, Ray, RaySet, Scene, Workload};
 use primitives::KernelId;
 
 /// A structure that is right but for every 1000th ray of a trace.
@@ -43,7 +43,7 @@ fn differences(
     fault: fn(Option<Hit>) -> Option<Hit>,
 ) -> Vec<usize> {
     let choice = crate::registry::parse("minmax").unwrap();
-    let inner = choice.builder.build(scene, &Need::GENERAL).unwrap();
+    let inner = choice.builder.build(scene, &Workload::GENERAL).unwrap();
     let mut answers = Answers::new(query, rays.len());
     answers.trace(&Faulty { inner, fault }, rays);
     compare(&answers, &Reference::new(scene, rays, query, KernelId::MollerTrumbore, ALL))
@@ -96,7 +96,7 @@ fn a_sample_compares_what_it_says() {
     let mut wrong = Answers::new(Query::Closest, rays.len());
     assert_eq!(compare(&wrong, &reference), reference.numbers, "answers never written differ");
     let choice = crate::registry::parse("brute").unwrap();
-    wrong.trace(choice.builder.build(&scene, &Need::GENERAL).unwrap().as_ref(), &rays);
+    wrong.trace(choice.builder.build(&scene, &Workload::GENERAL).unwrap().as_ref(), &rays);
     assert!(compare(&wrong, &reference).is_empty());
 }
 
@@ -106,7 +106,7 @@ fn wrong_answers_are_told_apart_by_the_oracle() {
     let oracle = Judge::new(&scene, Tolerance::VISIBLE);
     let choice = crate::registry::parse("brute:kernel=watertight").unwrap();
     let mut answers = Answers::new(Query::Closest, inside.len());
-    answers.trace(choice.builder.build(&scene, &Need::GENERAL).unwrap().as_ref(), &inside);
+    answers.trace(choice.builder.build(&scene, &Workload::GENERAL).unwrap().as_ref(), &inside);
     let all: Vec<usize> = (0..inside.len()).collect();
     let mut hits = answers.closest().unwrap().to_vec();
     let sound = judge(&oracle, &inside, &hits, &all);

@@ -5,7 +5,7 @@ use super::deadline::Deadline;
 use crate::clock::Clock;
 use crate::record::Bytes;
 use crate::registry::{BuildFailure, Choice, guarded_build_unless};
-use accel::{Accel, Cancel, Group, Need, Scene};
+use accel::{Accel, Cancel, Group, Scene, Workload};
 use heap;
 
 /// A structure on its way through a scene.
@@ -36,22 +36,22 @@ impl Built<'_> {
     }
 }
 
-/// Builds every choice for its need: in the first pass (when `all` is empty) once watched for memory, then round by
+/// Builds every choice for its workload: in the first pass (when `all` is empty) once watched for memory, then round by
 /// round for time, as many times as are due by the end of that pass.
 ///
 /// None if interrupted.
 pub fn build_all<'s>(
     scene: &'s Scene,
-    wanted: &[(&Choice, Need)],
+    wanted: &[(&Choice, Workload)],
     (options, pass): (&Options, usize),
     deadline: &Deadline,
     all: &mut Vec<Built<'s>>,
 ) -> Option<()> {
-    for (choice, need) in &wanted[all.len()..] {
+    for (choice, workload) in &wanted[all.len()..] {
         if deadline.interrupted() {
             return None;
         }
-        all.push(watched(scene, choice, need, deadline));
+        all.push(watched(scene, choice, workload, deadline));
         if deadline.interrupted() {
             return None;
         }
@@ -62,7 +62,7 @@ pub fn build_all<'s>(
                 return None;
             }
             let i = (place + round) % wanted.len();
-            let (choice, need) = &wanted[i];
+            let (choice, workload) = &wanted[i];
             let built = &mut all[i];
             let (count, spent) = (built.build_ns.len(), built.build_ns.iter().sum::<u64>());
             let in_time = u128::from(spent) < options.time_due(options.build_time, pass).as_nanos();
@@ -75,7 +75,7 @@ pub fn build_all<'s>(
                 Err(Absent::Failed(_)) => false,
             };
             if wants {
-                timed(scene, choice, need, Clock::of(options.threads), deadline, built);
+                timed(scene, choice, workload, Clock::of(options.threads), deadline, built);
                 if deadline.interrupted() {
                     return None;
                 }
@@ -85,9 +85,9 @@ pub fn build_all<'s>(
     Some(())
 }
 
-fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need, deadline: &Deadline) -> Built<'s> {
+fn watched<'s>(scene: &'s Scene, choice: &Choice, workload: &Workload, deadline: &Deadline) -> Built<'s> {
     let interrupted = || deadline.interrupted();
-    let build = || guarded_build_unless(choice, scene, need, Cancel::when(&interrupted));
+    let build = || guarded_build_unless(choice, scene, workload, Cancel::when(&interrupted));
     let (accel, used) = heap::observe(build);
     let used = used.filter(|_| choice.entry.traits.counted);
     let bytes = accel.as_ref().ok().map(|accel| {
@@ -110,14 +110,14 @@ fn watched<'s>(scene: &'s Scene, choice: &Choice, need: &Need, deadline: &Deadli
 fn timed<'s>(
     scene: &'s Scene,
     choice: &Choice,
-    need: &Need,
+    workload: &Workload,
     clock: Clock,
     deadline: &Deadline,
     built: &mut Built<'s>,
 ) {
     let interrupted = || deadline.interrupted();
     let start = clock.now_of_build();
-    let again = guarded_build_unless(choice, scene, need, Cancel::when(&interrupted));
+    let again = guarded_build_unless(choice, scene, workload, Cancel::when(&interrupted));
     let ns = clock.now_of_build() - start;
     if again.is_ok() {
         built.build_ns.push(ns);

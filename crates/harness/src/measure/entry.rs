@@ -9,8 +9,8 @@ use crate::check::{self, Reference, compare};
 use crate::guard::guard;
 use crate::record::{Cell, Check, Outcome, Query};
 use crate::registry::Choice;
-use crate::workload::{Workload, in_time, sample, subsample};
-use accel::{Accel, Builder, Counters, Geometry, Need, RaySet, Scene};
+use crate::workload::{RayQuery, in_time, sample, subsample};
+use accel::{Accel, Builder, Counters, Geometry, RaySet, Scene, Workload};
 use baselines::Brute;
 use judge::{Judge, Tolerance};
 use primitives::KernelId;
@@ -58,7 +58,7 @@ impl<'s> References<'s> {
     fn brute(&mut self, kernel: KernelId) -> &dyn Accel {
         let scene = self.scene;
         let build =
-            || Brute::new(kernel).build(scene, &Need::GENERAL).expect("brute force serves every scene");
+            || Brute::new(kernel).build(scene, &Workload::GENERAL).expect("brute force serves every scene");
         &**self.brute.entry(kernel).or_insert_with(build)
     }
 
@@ -77,7 +77,7 @@ type Checked = Vec<(KernelId, usize, Reference)>;
 pub fn ray_set<'w>(
     job: &Job<'w>,
     pass: usize,
-    workload: &'w Workload,
+    asked: &'w RayQuery,
     entrants: &[(&Choice, &Built)],
     entries: &mut Entries<'w>,
     refs: &mut References,
@@ -88,13 +88,13 @@ pub fn ray_set<'w>(
         if job.deadline.interrupted() {
             return None;
         }
-        let name = (workload.id, choice.spec.to_string());
+        let name = (asked.id, choice.spec.to_string());
         all.push(match entries.remove(&name) {
             Some(entry) => {
                 warm_up(choice, built, &entry);
                 (entry, None)
             }
-            None => enter(job, workload, choice, built, &mut checked, refs),
+            None => enter(job, asked, choice, built, &mut checked, refs),
         });
     }
     let mut runners = Vec::new();
@@ -105,7 +105,7 @@ pub fn ray_set<'w>(
             Ok(accel) => runners.push(Runner {
                 accel: accel.as_ref(),
                 rays: &entry.rays,
-                query: workload.query,
+                query: asked.query,
                 first: first.take(),
                 trace_ns: entry.cell.trace_ns.clone(),
                 failure: entry.failure.clone(),
@@ -132,13 +132,13 @@ pub fn ray_set<'w>(
             let cell = &mut entry.cell;
             cell.summarise();
             if job.options.counters && cell.outcome.is_measured() && cell.counters.is_none() {
-                let count = || accel.count(&entry.rays, workload.query == Query::Occluded);
+                let count = || accel.count(&entry.rays, asked.query == Query::Occluded);
                 cell.counters =
                     guard("counting", count).ok().flatten().map(|c| per_ray(&c, entry.rays.len()));
             }
         }
         cells.push(entry.cell.clone());
-        entries.insert((workload.id, choice.spec.to_string()), entry);
+        entries.insert((asked.id, choice.spec.to_string()), entry);
     }
     Some(cells)
 }
@@ -147,22 +147,22 @@ pub fn ray_set<'w>(
 /// that an earlier run left of the same rays stay.
 fn enter<'w>(
     job: &Job,
-    workload: &'w Workload,
+    asked: &'w RayQuery,
     choice: &Choice,
     built: &Built,
     checked: &mut Checked,
     refs: &mut References,
 ) -> (Entry<'w>, Option<Answers>) {
-    let rays = rays_for(job, workload, choice, built);
-    let cell = blank(job, workload, choice, built, &rays);
+    let rays = rays_for(job, asked, choice, built);
+    let cell = blank(job, asked, choice, built, &rays);
     let mut entry = Entry { rays, fingerprint: None, earlier_builds: Vec::new(), failure: None, cell };
-    if let Some(known) = job.known(workload, choice).filter(|known| known.ray_count == entry.cell.ray_count) {
+    if let Some(known) = job.known(asked, choice).filter(|known| known.ray_count == entry.cell.ray_count) {
         entry.cell.trace_ns.clone_from(&known.trace_ns);
         entry.cell.passes.clone_from(&known.passes);
         entry.earlier_builds.clone_from(&known.build_ns);
     }
     let Ok(accel) = &built.accel else { return (entry, None) };
-    let mut answers = Answers::new(workload.query, entry.rays.len());
+    let mut answers = Answers::new(asked.query, entry.rays.len());
     if let Err(panicked) = guard("tracing", || answers.trace(accel.as_ref(), &entry.rays)) {
         entry.fail(panicked);
         return (entry, None);
@@ -179,23 +179,23 @@ fn enter<'w>(
 }
 
 /// The rays that a structure has time for.
-fn rays_for<'w>(job: &Job, workload: &'w Workload, choice: &Choice, built: &Built) -> Cow<'w, RaySet> {
-    if choice.entry.traits.subsamples(&workload.rays) {
+fn rays_for<'w>(job: &Job, asked: &'w RayQuery, choice: &Choice, built: &Built) -> Cow<'w, RaySet> {
+    if choice.entry.traits.subsamples(&asked.rays) {
         let objects = job.scene.geometry.len();
         let few = (job.options.linear_tests / objects.max(1) as u64).max(16) as usize;
-        return Cow::Owned(subsample(&workload.rays, few));
+        return Cow::Owned(subsample(&asked.rays, few));
     }
     match &built.accel {
-        Ok(accel) if !of_one_raster(choice, &workload.rays) => {
-            in_time(accel.as_ref(), &workload.rays, workload.query, job.options.sample_time)
+        Ok(accel) if !of_one_raster(choice, &asked.rays) => {
+            in_time(accel.as_ref(), &asked.rays, asked.query, job.options.sample_time)
         }
-        _ => Cow::Borrowed(&workload.rays),
+        _ => Cow::Borrowed(&asked.rays),
     }
 }
 
 /// Whether a structure is built for just these rays and can't be asked for fewer of them.
 fn of_one_raster(choice: &Choice, rays: &RaySet) -> bool {
-    choice.entry.traits.by_need && matches!(rays, RaySet::Raster(_))
+    choice.entry.traits.by_workload && matches!(rays, RaySet::Raster(_))
 }
 
 /// Brings a structure into the caches again. An eighth of the rays meets most of it.
@@ -230,11 +230,11 @@ fn answers_of_another_build(
     }
 }
 
-fn blank(job: &Job, workload: &Workload, choice: &Choice, built: &Built, rays: &RaySet) -> Cell {
+fn blank(job: &Job, asked: &RayQuery, choice: &Choice, built: &Built, rays: &RaySet) -> Cell {
     Cell {
         scene: job.scene.id.clone(),
-        rays: workload.id.to_string(),
-        query: workload.query,
+        rays: asked.id.to_string(),
+        query: asked.query,
         structure: choice.spec.to_string(),
         kernel: choice.intersector(),
         kernel_reason: choice.reason().to_owned(),

@@ -3,7 +3,7 @@
 use super::{Deadline, Options};
 use crate::record::Cell;
 use crate::registry::Choice;
-use crate::workload::Workload;
+use crate::workload::RayQuery;
 use accel::Scene;
 
 /// What is to be measured on a scene.
@@ -11,7 +11,7 @@ pub struct Job<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Ray sets.
-    pub workloads: &'a [Workload],
+    pub queries: &'a [RayQuery],
     /// Structures.
     pub choices: &'a [Choice],
     /// How much.
@@ -24,19 +24,18 @@ pub struct Job<'a> {
 
 impl Job<'_> {
     /// Whether a cell is to be measured in a pass: it is not there already.
-    pub fn wants(&self, workload: &Workload, choice: &Choice, pass: usize) -> bool {
-        self.known(workload, choice)
-            .is_none_or(|cell| cell.outcome.is_measured() && cell.passes.len() <= pass)
+    pub fn wants(&self, asked: &RayQuery, choice: &Choice, pass: usize) -> bool {
+        self.known(asked, choice).is_none_or(|cell| cell.outcome.is_measured() && cell.passes.len() <= pass)
     }
 
     /// Whether any pass wants a cell.
-    pub fn lacks(&self, workload: &Workload, choice: &Choice) -> bool {
-        (0..self.options.passes()).any(|pass| self.wants(workload, choice, pass))
+    pub fn lacks(&self, asked: &RayQuery, choice: &Choice) -> bool {
+        (0..self.options.passes()).any(|pass| self.wants(asked, choice, pass))
     }
 
     /// The cell as an earlier run left it.
-    pub fn known(&self, workload: &Workload, choice: &Choice) -> Option<&Cell> {
+    pub fn known(&self, asked: &RayQuery, choice: &Choice) -> Option<&Cell> {
         let name = choice.spec.to_string();
-        self.known.iter().find(|cell| cell.rays == workload.id.name() && cell.structure == name)
+        self.known.iter().find(|cell| cell.rays == asked.id.name() && cell.structure == name)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::record::{Layout, MemoryRow};
 use crate::registry::{self, guarded_build_unless};
-use accel::{Cancel, Footprint, Group, Need, Scene};
+use accel::{Cancel, Footprint, Group, Scene, Workload};
 
 /// The resolutions of reports.
 pub const RESOLUTIONS: [u32; 5] = [8, 16, 32, 64, 128];
@@ -45,7 +45,7 @@ fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>, cancel: Cancel
 
 fn footprint(scene: &Scene, spec: &str, cancel: Cancel) -> Result<Footprint, String> {
     let choice = registry::parse(spec).map_err(|error| error.to_string())?;
-    let built = guarded_build_unless(&choice, scene, &Need::GENERAL, cancel);
+    let built = guarded_build_unless(&choice, scene, &Workload::GENERAL, cancel);
     built.map(|accel| accel.footprint()).map_err(|failure| failure.to_string())
 }
 

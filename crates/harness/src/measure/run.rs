@@ -8,7 +8,7 @@ use super::{Options, Session};
 use crate::progress::{Event, Listener};
 use crate::record::{Cell, Record, SceneEntry, Skipped};
 use crate::registry::Choice;
-use crate::workload::{self, Workload, Workloads};
+use crate::workload::{self, RayQueries, RayQuery};
 use accel::{Cancel, Scene};
 use scenes::{SceneError, SceneSpec};
 
@@ -138,21 +138,20 @@ fn one_scene(
     listener: &mut impl Listener,
     keep: &mut impl FnMut(&Record),
 ) {
-    let Workloads { made: workloads, left_out } =
+    let RayQueries { made: queries, left_out } =
         workload::make(scene, &session.subject.rays, session.subject.size, session.subject.seed);
     record.skipped.extend(left_out.iter().map(|(id, error)| Skipped::rays(&scene.id, id, error)));
     let here = |cell: &&Cell| cell.scene == scene.id && cell.threads == options.threads;
     let known: Vec<Cell> = record.cells.iter().filter(here).cloned().collect();
-    let job =
-        Job { scene, workloads: &workloads, choices, options, known: &known, deadline: &session.deadline };
-    let is_known = |w: &Workload| known.iter().any(|cell| cell.rays == w.id.name());
-    let mut left: Vec<&Workload> =
-        workloads.iter().filter(|w| choices.iter().any(|c| job.lacks(w, c)) && !is_known(w)).collect();
-    measure(&job, |workload, pass, cells| {
+    let job = Job { scene, queries: &queries, choices, options, known: &known, deadline: &session.deadline };
+    let is_known = |q: &RayQuery| known.iter().any(|cell| cell.rays == q.id.name());
+    let mut left: Vec<&RayQuery> =
+        queries.iter().filter(|q| choices.iter().any(|c| job.lacks(q, c)) && !is_known(q)).collect();
+    measure(&job, |asked, pass, cells| {
         cells.into_iter().for_each(|cell| put(record, cell));
-        left.retain(|w| w.id != workload.id);
+        left.retain(|q| q.id != asked.id);
         keep(record);
-        listener.hear(&Event::RaySetDone { rays: workload.id, pass: pass + 1, passes: options.passes() });
+        listener.hear(&Event::RaySetDone { rays: asked.id, pass: pass + 1, passes: options.passes() });
     });
     if session.deadline.interrupted() {
         return;

@@ -4,8 +4,8 @@ use super::*;
 use crate::record::{Cell, Intersector, Outcome, Query};
 use crate::registry::{self, Choice, ChosenKernel, Entry};
 use crate::testing;
-use crate::workload::Workload;
-use accel::{Accel, BuildError, Builder, Footprint, Hit, Need, Ray, RaySet, Scene};
+use crate::workload::RayQuery;
+use accel::{Accel, BuildError, Builder, Footprint, Hit, Ray, RaySet, Scene, Workload};
 use baselines::MinMax;
 use primitives::KernelId;
 use scenes::rays::RaysId;
@@ -17,28 +17,28 @@ fn quick() -> Options {
     Options { passes: 1, rounds: 3, build_rounds: 2, ..Options::default() }
 }
 
-fn workloads(scene_rays: RaySet) -> Vec<Workload> {
+fn queries(scene_rays: RaySet) -> Vec<RayQuery> {
     vec![
-        Workload {
+        RayQuery {
             id: RaysId::Parallel,
             rays: RaySet::Raster(testing::raster(64, 64)),
             query: Query::Closest,
         },
-        Workload { id: RaysId::Random, rays: scene_rays.clone(), query: Query::Closest },
-        Workload { id: RaysId::Shadow, rays: scene_rays, query: Query::Occluded },
+        RayQuery { id: RaysId::Random, rays: scene_rays.clone(), query: Query::Closest },
+        RayQuery { id: RaysId::Shadow, rays: scene_rays, query: Query::Occluded },
     ]
 }
 
 fn cells(choices: &[Choice], options: &Options) -> Vec<Cell> {
     let (scene, rays) = testing::cloud(400, 2000);
-    let workloads = workloads(rays);
+    let queries = queries(rays);
     let mut told = Vec::new();
     let deadline = Deadline::default();
-    let job = Job { scene: &scene, workloads: &workloads, choices, options, known: &[], deadline: &deadline };
+    let job = Job { scene: &scene, queries: &queries, choices, options, known: &[], deadline: &deadline };
     let mut cells: Vec<Cell> = Vec::new();
-    measure(&job, |workload, pass, more| {
-        told.push((pass, workload.id));
-        cells.retain(|cell| cell.rays != workload.id.name());
+    measure(&job, |asked, pass, more| {
+        told.push((pass, asked.id));
+        cells.retain(|cell| cell.rays != asked.id.name());
         cells.extend(more);
     });
     let ids = [RaysId::Parallel, RaysId::Random, RaysId::Shadow];
@@ -110,12 +110,12 @@ impl Builder for Odd {
         String::new()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         if self.0 == Fault::RefusesToBuild {
             return Err(BuildError::Unsupported { structure: "odd".into(), what: "anything".into() });
         }
         assert!(self.0 != Fault::PanicsInBuild, "no build today");
-        let inner = MinMax { kernel: KernelId::MollerTrumbore }.build(scene, need)?;
+        let inner = MinMax { kernel: KernelId::MollerTrumbore }.build(scene, workload)?;
         // The second timed build is the first of the second pass; the one before them was watched for memory.
         let fault = match (self.0, self.1.fetch_add(1, Ordering::Relaxed)) {
             (Fault::OtherWhenBuiltAgain, 0..2) => Fault::None,

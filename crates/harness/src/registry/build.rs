@@ -2,7 +2,7 @@
 
 use super::Choice;
 use crate::guard::{Panicked, guard};
-use accel::{Accel, BuildError, Cancel, Need, Scene};
+use accel::{Accel, BuildError, Cancel, Scene, Workload};
 
 /// Why there is no structure.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -16,7 +16,7 @@ pub enum BuildFailure {
 }
 
 impl BuildFailure {
-    /// Whether the structure merely has no way to serve the scene or the need.
+    /// Whether the structure merely has no way to serve the scene or the workload.
     pub fn is_unsupported(&self) -> bool {
         matches!(self, Self::Refused(BuildError::Unsupported { .. }))
     }
@@ -39,9 +39,9 @@ impl BuildFailure {
 pub fn guarded_build<'s>(
     choice: &Choice,
     scene: &'s Scene,
-    need: &Need,
+    workload: &Workload,
 ) -> Result<Box<dyn Accel + 's>, BuildFailure> {
-    guarded_build_unless(choice, scene, need, Cancel::NEVER)
+    guarded_build_unless(choice, scene, workload, Cancel::NEVER)
 }
 
 /// [`guarded_build`] that gives up soon after it is asked to.
@@ -51,8 +51,8 @@ pub fn guarded_build<'s>(
 pub fn guarded_build_unless<'s>(
     choice: &Choice,
     scene: &'s Scene,
-    need: &Need,
+    workload: &Workload,
     cancel: Cancel,
 ) -> Result<Box<dyn Accel + 's>, BuildFailure> {
-    Ok(guard("the build", || choice.builder.build_unless(scene, need, cancel))??)
+    Ok(guard("the build", || choice.builder.build_unless(scene, workload, cancel))??)
 }

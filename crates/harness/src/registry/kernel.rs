@@ -2,7 +2,7 @@
 
 use super::{Choice, Entry, RegistryError, Settings, StructureSpec};
 use crate::record::Intersector;
-use accel::{Accel, BuildError, Builder, Need, Scene};
+use accel::{Accel, BuildError, Builder, Scene, Workload};
 use judge::Limits;
 use primitives::KernelId;
 use std::sync::Arc;
@@ -129,7 +129,7 @@ impl Builder for Undecided {
         self.inner.settings().replace(&format!("kernel={}", self.standard), "kernel=auto")
     }
 
-    fn build<'s>(&self, _: &'s Scene, _: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, _: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         Err(BuildError::Setting {
             structure: self.id().to_owned(),
             setting: "kernel".to_owned(),

@@ -16,7 +16,7 @@ pub use kernel::{AUTO, ChosenKernel};
 pub use look::{Look, Shape, look};
 pub use settings::{KERNEL, SIMD, Setting, Settings, StructureSpec};
 
-use accel::{Accel, Builder, Need, RaySet, Scene};
+use accel::{Accel, Builder, RaySet, Scene, Workload};
 use baselines::Brute;
 use primitives::KernelId;
 use scenes::near::near;
@@ -80,8 +80,8 @@ pub struct Traits {
     pub built_in: bool,
     /// Its time per ray grows with the number of objects: it gets fewer rays.
     pub linear: bool,
-    /// What is built depends on the need: another build for every raster.
-    pub by_need: bool,
+    /// What is built depends on the workload: another build for every raster.
+    pub by_workload: bool,
     /// Its memory comes from this program's allocator, so that peaks can be counted.
     pub counted: bool,
     /// Suits scenes of any size, so that it is worth trying with every kernel.
@@ -96,7 +96,7 @@ impl Traits {
         default: true,
         built_in: true,
         linear: false,
-        by_need: false,
+        by_workload: false,
         counted: true,
         any_kernel: false,
         leaks: false,
@@ -109,7 +109,7 @@ impl Traits {
     /// Whether such a structure is given fewer rays than the set has. A raster that it was built for
     /// is traced as it is.
     pub fn subsamples(&self, rays: &RaySet) -> bool {
-        self.linear && !(self.by_need && matches!(rays, RaySet::Raster(_)))
+        self.linear && !(self.by_workload && matches!(rays, RaySet::Raster(_)))
     }
 }
 
@@ -216,9 +216,9 @@ pub fn parse(text: &str) -> Result<Choice, RegistryError> {
 /// If it can't be built for want of memory, and brute force neither.
 pub fn quick(scene: &Scene, kernel: KernelId) -> Box<dyn Accel + '_> {
     let grid = parse(&format!("ssm:kernel={kernel}")).ok();
-    let built = grid.and_then(|choice| choice.builder.build(scene, &Need::GENERAL).ok());
+    let built = grid.and_then(|choice| choice.builder.build(scene, &Workload::GENERAL).ok());
     built.unwrap_or_else(|| {
-        Brute::new(kernel).build(scene, &Need::GENERAL).expect("brute force serves every scene")
+        Brute::new(kernel).build(scene, &Workload::GENERAL).expect("brute force serves every scene")
     })
 }
 

@@ -7,8 +7,8 @@ use crate::guard::guard;
 use crate::progress::{Event, Listener};
 use crate::record::Query;
 use crate::registry::{Choice, guarded_build};
-use crate::workload::{self, Subject, Workload, batches, in_time, subsample};
-use accel::{Accel, Need, RaySet, Scene};
+use crate::workload::{self, RayQuery, Subject, batches, in_time, subsample};
+use accel::{Accel, RaySet, Scene, Workload};
 use primitives::KernelId;
 use rayon::prelude::*;
 use scenes::{SceneError, SceneSpec};
@@ -112,9 +112,9 @@ fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally:
     let few = (sweep.tests / 16 / scene.geometry.len().max(1) as u64).max(1);
     let few = usize::try_from(few).unwrap_or(usize::MAX);
     // A set that has no rays on this scene (no objects, no hits) is nothing to check.
-    let workloads = workload::make(scene, &sweep.subject.rays, sweep.subject.size, seed).made;
-    let choices = crate::auto::resolve(choices, scene, &batches(&workloads));
-    let sets: Vec<Set> = workloads
+    let queries = workload::make(scene, &sweep.subject.rays, sweep.subject.size, seed).made;
+    let choices = crate::auto::resolve(choices, scene, &batches(&queries));
+    let sets: Vec<Set> = queries
         .into_iter()
         .map(|set| Set { subsampled: subsample(&set.rays, few), set, right: Mutex::default() })
         .collect();
@@ -132,7 +132,7 @@ fn one_scene(sweep: &Sweep, scene: &Scene, choices: &[Choice], seed: u64, tally:
 
 /// A ray set with what brute force answers, computed when first asked for.
 struct Set {
-    set: Workload,
+    set: RayQuery,
     /// For structures whose time grows with the number of objects.
     subsampled: RaySet,
     right: Mutex<BTreeMap<(KernelId, Query, usize), Arc<Reference>>>,
@@ -181,17 +181,17 @@ impl Found {
     }
 }
 
-/// Builds once for every need that the sets have, and compares.
+/// Builds once for every workload that the sets have, and compares.
 fn one_choice(sweep: &Sweep, scene: &Scene, choice: &Choice, sets: &[Set]) -> Found {
     let traits = &choice.entry.traits;
     let mut found = Found::default();
-    let mut built: Option<(Need, Box<dyn Accel + '_>)> = None;
+    let mut built: Option<(Workload, Box<dyn Accel + '_>)> = None;
     for set in sets {
         let rays = if traits.subsamples(&set.set.rays) { &set.subsampled } else { &set.set.rays };
-        let need = if traits.by_need { Need::of(rays) } else { Need::GENERAL };
-        let accel = match built.take().filter(|(known, _)| *known == need) {
+        let workload = if traits.by_workload { Workload::of(rays) } else { Workload::GENERAL };
+        let accel = match built.take().filter(|(known, _)| *known == workload) {
             Some((_, accel)) => accel,
-            None => match guarded_build(choice, scene, &need) {
+            None => match guarded_build(choice, scene, &workload) {
                 Ok(accel) => accel,
                 Err(failure) if failure.is_unsupported() => continue,
                 Err(failure) => {
@@ -201,7 +201,7 @@ fn one_choice(sweep: &Sweep, scene: &Scene, choice: &Choice, sets: &[Set]) -> Fo
             },
         };
         for query in QUERIES {
-            let rays = match need.raster {
+            let rays = match workload.raster {
                 Some(_) => Cow::Borrowed(rays),
                 None => in_time(accel.as_ref(), rays, query, SET_TIME),
             };
@@ -209,7 +209,7 @@ fn one_choice(sweep: &Sweep, scene: &Scene, choice: &Choice, sets: &[Set]) -> Fo
             let right = set.right(sweep, scene, &rays, query, choice.reference_kernel());
             one_set(choice, accel.as_ref(), &rays, &right, query, &place, &mut found);
         }
-        built = Some((need, accel));
+        built = Some((workload, accel));
     }
     found
 }

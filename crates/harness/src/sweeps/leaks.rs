@@ -4,7 +4,7 @@ use crate::check::oracle_of;
 use crate::guard::guard;
 use crate::progress::{Event, Listener};
 use crate::registry::{Choice, guarded_build};
-use accel::{Builder, Geometry, Need, Scene};
+use accel::{Builder, Geometry, Scene, Workload};
 use baselines::Brute;
 use primitives::KernelId;
 use scenes::SceneError;
@@ -113,7 +113,8 @@ fn one_mesh(
     seed: u64,
     choices: &[Choice],
 ) -> Result<(u64, Vec<LeakRow>), RaysError> {
-    let tracer = Brute::new(KernelId::Exact).build(scene, &Need::GENERAL).expect("brute force serves all");
+    let tracer =
+        Brute::new(KernelId::Exact).build(scene, &Workload::GENERAL).expect("brute force serves all");
     let mut oracle = None;
     let mut count = 0;
     let blank = |choice: &Choice| LeakRow {
@@ -126,7 +127,8 @@ fn one_mesh(
         error: None,
     };
     let mut rows: Vec<LeakRow> = choices.iter().map(blank).collect();
-    let built: Vec<_> = choices.iter().map(|choice| guarded_build(choice, scene, &Need::GENERAL)).collect();
+    let built: Vec<_> =
+        choices.iter().map(|choice| guarded_build(choice, scene, &Workload::GENERAL)).collect();
     for (kind, id) in SETS.into_iter().enumerate() {
         let rays = generate(scene, &RaysSpec { id, rows: side, cols: side, seed }, tracer.as_ref())?;
         count += rays.len() as u64;

@@ -6,7 +6,7 @@ use crate::guard::guard;
 use crate::progress::{Event, Listener};
 use crate::registry::{Choice, guarded_build};
 use crate::workload::{self, Subject, batches};
-use accel::{Geometry, Hit, Need, RaySet, Scene};
+use accel::{Geometry, Hit, RaySet, Scene, Workload};
 use oracle::{ExactHit, Verdict, classify};
 use rayon::prelude::*;
 use scenes::SceneError;
@@ -124,25 +124,25 @@ fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, ta
     let oracle = oracle_of(scene);
     let sets: Vec<RaysId> =
         plan.subject.rays.iter().copied().filter(|id| id.query() == Query::Closest).collect();
-    let workloads = workload::make(scene, &sets, plan.subject.size, seed).made;
-    let choices = crate::auto::resolve(choices, scene, &batches(&workloads));
-    let general: Vec<_> = choices.iter().map(|c| guarded_build(c, scene, &Need::GENERAL)).collect();
-    for workload in &workloads {
-        let rays = &workload.rays;
+    let queries = workload::make(scene, &sets, plan.subject.size, seed).made;
+    let choices = crate::auto::resolve(choices, scene, &batches(&queries));
+    let general: Vec<_> = choices.iter().map(|c| guarded_build(c, scene, &Workload::GENERAL)).collect();
+    for asked in &queries {
+        let rays = &asked.rays;
         let truth: Vec<_> = (0..rays.len()).into_par_iter().map(|i| oracle.closest(&rays.ray(i))).collect();
         let fair: Vec<usize> = (0..rays.len()).filter(|i| !is_denormal(truth[*i].as_ref())).collect();
         tally.rays += fair.len() as u64;
         tally.left_out += (rays.len() - fair.len()) as u64;
-        if matches!(workload.id.aims_at(), Some(Feature::Edge | Feature::Vertex)) {
+        if matches!(asked.id.aims_at(), Some(Feature::Edge | Feature::Vertex)) {
             tally.aimed += fair.len() as u64;
         }
         for (row, choice) in choices.iter().enumerate() {
-            let place = format!("{}: {} {}", choice.spec, scene.id, workload.id);
-            let by_need;
+            let place = format!("{}: {} {}", choice.spec, scene.id, asked.id);
+            let by_workload;
             let built = match rays {
-                RaySet::Raster(_) if choice.entry.traits.by_need => {
-                    by_need = guarded_build(choice, scene, &Need::of(rays));
-                    &by_need
+                RaySet::Raster(_) if choice.entry.traits.by_workload => {
+                    by_workload = guarded_build(choice, scene, &Workload::of(rays));
+                    &by_workload
                 }
                 _ => &general[row],
             };

@@ -1,4 +1,4 @@
-//! Workloads: the ray sets of a scene with what is asked of each ray.
+//! What is measured: the ray sets of a scene with what is asked of each ray.
 
 mod pace;
 mod subset;
@@ -25,9 +25,9 @@ pub struct Subject {
     pub seed: u64,
 }
 
-/// A ray set of a scene.
+/// A ray set of a scene and what is asked of its rays.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Workload {
+pub struct RayQuery {
     /// Which ray set.
     pub id: RaysId,
     /// The rays.
@@ -36,7 +36,7 @@ pub struct Workload {
     pub query: Query,
 }
 
-impl Workload {
+impl RayQuery {
     /// The rays and what is asked of them, whatever set they are of.
     pub fn batch(&self) -> Batch<'_> {
         Batch { rays: &self.rays, query: self.query }
@@ -52,28 +52,28 @@ pub struct Batch<'r> {
     pub query: Query,
 }
 
-/// The rays of workloads.
-pub fn batches(workloads: &[Workload]) -> Vec<Batch<'_>> {
-    workloads.iter().map(Workload::batch).collect()
+/// Ray sets without their names.
+pub fn batches(queries: &[RayQuery]) -> Vec<Batch<'_>> {
+    queries.iter().map(RayQuery::batch).collect()
 }
 
-/// The workloads of a scene.
+/// The ray sets of a scene, with what is asked of their rays.
 #[derive(Debug, Default)]
-pub struct Workloads {
+pub struct RayQueries {
     /// Those that the scene has rays for.
-    pub made: Vec<Workload>,
+    pub made: Vec<RayQuery>,
     /// Ray sets that it has no rays for, and why.
     pub left_out: Vec<(RaysId, RaysError)>,
 }
 
 /// Makes ray sets of a scene: images of `size` rows and columns, batches of as many rays.
-pub fn make(scene: &Scene, sets: &[RaysId], size: u32, seed: u64) -> Workloads {
+pub fn make(scene: &Scene, sets: &[RaysId], size: u32, seed: u64) -> RayQueries {
     let tracer = registry::quick(scene, KernelId::MollerTrumbore);
-    let mut all = Workloads::default();
+    let mut all = RayQueries::default();
     for id in sets {
         let spec = RaysSpec { id: *id, rows: size, cols: size, seed };
         match rays::generate(scene, &spec, tracer.as_ref()) {
-            Ok(rays) => all.made.push(Workload { id: *id, rays, query: id.query() }),
+            Ok(rays) => all.made.push(RayQuery { id: *id, rays, query: id.query() }),
             Err(error) => all.left_out.push((*id, error)),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::error::Error;
-use accel::{Hit, Need, RaySet, Scene};
+use accel::{Hit, RaySet, Scene, Workload};
 use harness::auto;
 use harness::record::Query;
 use harness::registry::Choice;
@@ -39,7 +39,7 @@ pub fn trace(console: &Console, choice: &Choice, scene: &Scene, rays: &RaySet) -
             console.note(format!("kernel {}: {}", choice.kernel(), choice.reason()));
         }
         let start = Instant::now();
-        let accel = choice.builder.build(scene, &Need::of(rays))?;
+        let accel = choice.builder.build(scene, &Workload::of(rays))?;
         let build = start.elapsed();
         let bytes = rays.len() as u128 * size_of::<Option<Hit>>() as u128;
         let available = accel::available_memory();

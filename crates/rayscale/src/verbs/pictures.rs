@@ -1,7 +1,7 @@
 //! Pictures of a record's scenes, for those that are on this machine.
 
 use super::judged;
-use accel::{Geometry, Hit, Need, RaySet, Scene};
+use accel::{Geometry, Hit, RaySet, Scene, Workload};
 use harness::guard::guard;
 use harness::record::{Record, SceneEntry};
 use harness::registry::{self, guarded_build};
@@ -125,7 +125,7 @@ fn render(record: &Record, entry: &SceneEntry, scene: &Scene) -> Option<Vec<Pict
 
 fn hits(structure: &str, scene: &Scene, rays: &RaySet) -> Option<Vec<Option<Hit>>> {
     let choice = registry::parse(structure).ok()?;
-    let accel = guarded_build(&choice, scene, &Need::of(rays)).ok()?;
+    let accel = guarded_build(&choice, scene, &Workload::of(rays)).ok()?;
     let mut hits = vec![None; rays.len()];
     guard("tracing", || accel.trace(rays, &mut hits)).ok()?;
     Some(hits)

@@ -6,7 +6,7 @@ use crate::options::LimitOptions;
 use crate::options::Selection;
 use crate::progress::Progress;
 use crate::verb::{Outcome, Verb};
-use accel::{Need, Scene};
+use accel::{Scene, Workload};
 use clap::Args;
 use harness::auto::Examiner;
 use harness::guard::guard;
@@ -159,25 +159,25 @@ fn choices(scene: &Scene, accuracy: bool) -> Result<Vec<Choice>, Error> {
 /// Wrong answers of the suite's kernels, as for the kernel `auto`, and of structures with a test of their own.
 fn errors(session: &Session, scene: &Scene, choices: &[Choice]) -> ErrorRates {
     let mut all = ErrorRates::new();
-    let workloads =
+    let queries =
         workload::make(scene, &session.subject.rays, session.subject.size, session.subject.seed).made;
     let mut examiner =
-        Examiner::new(scene, &workload::batches(&workloads), JUDGED * workloads.len(), Tolerance::VISIBLE);
+        Examiner::new(scene, &workload::batches(&queries), JUDGED * queries.len(), Tolerance::VISIBLE);
     let mut enter = |answerer: Answerer, rates: Vec<ErrorRate>| {
-        all.extend(workloads.iter().zip(rates).map(|(w, rate)| ((answerer.clone(), w.id.to_string()), rate)));
+        all.extend(queries.iter().zip(rates).map(|(q, rate)| ((answerer.clone(), q.id.to_string()), rate)));
     };
     for kernel in kernels() {
         enter(
             Answerer::Kernel(kernel),
             match kernel {
-                KernelId::Exact => vec![ErrorRate::Proven; workloads.len()],
+                KernelId::Exact => vec![ErrorRate::Proven; queries.len()],
                 _ => examiner.examine(kernel).into_iter().map(ErrorRate::Seen).collect(),
             },
         );
     }
     for choice in choices.iter().filter(|c| !c.entry.traits.built_in) {
         // Whoever can't be built, or panics, has said so where it was measured.
-        let Ok(accel) = guarded_build(choice, scene, &Need::GENERAL) else { continue };
+        let Ok(accel) = guarded_build(choice, scene, &Workload::GENERAL) else { continue };
         if let Ok(wrong) = guard("tracing", || examiner.examine_structure(accel.as_ref())) {
             enter(
                 Answerer::Structure(choice.spec.to_string()),

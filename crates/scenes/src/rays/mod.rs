@@ -2,16 +2,16 @@
 //!
 //! A set follows from the scene, its name, its size and a seed. `shadow`, `ambient`,
 //! `diffuse` and two of the stress sets start from hits: they also need something that
-//! answers closest-hit rays, any [`Accel`] built with [`Need::GENERAL`](accel::Need::GENERAL).
+//! answers closest-hit rays, any [`Accel`] built with [`Workload::GENERAL`](accel::Workload::GENERAL).
 //!
 //! ```
-//! use accel::{Builder, Need};
+//! use accel::{Builder, Workload};
 //! use baselines::Brute;
 //! use primitives::KernelId;
 //! use scenes::rays::{RaysId, RaysSpec, generate};
 //!
 //! let scene = scenes::load(&"unit-flat".parse()?)?;
-//! let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Need::GENERAL)?;
+//! let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Workload::GENERAL)?;
 //! let spec = RaysSpec { id: RaysId::Diffuse, rows: 8, cols: 8, seed: 1 };
 //! assert_eq!(generate(&scene, &spec, brute.as_ref())?.len(), 64);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{SceneSpec, load};
-use accel::{Builder, Geometry, Hit, Need, Projection, Ray};
+use accel::{Builder, Geometry, Hit, Projection, Ray, Workload};
 use baselines::Brute;
 use primitives::KernelId;
 
@@ -11,7 +11,7 @@ fn scene(id: &str) -> Scene {
 }
 
 fn brute(scene: &Scene) -> Box<dyn Accel + '_> {
-    Brute::new(KernelId::Double).build(scene, &Need::GENERAL).unwrap()
+    Brute::new(KernelId::Double).build(scene, &Workload::GENERAL).unwrap()
 }
 
 fn make(scene: &Scene, id: RaysId, side: u32) -> Result<RaySet, RaysError> {

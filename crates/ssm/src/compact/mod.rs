@@ -13,7 +13,8 @@ use crate::settings::Settings;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
 use accel::{
-    Accel, Bounds, BuildError, Builder, Cancel, Counters, Footprint, Hit, Need, Ray, RaySet, Scene, vec_bytes,
+    Accel, Bounds, BuildError, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet, Scene, Workload,
+    vec_bytes,
 };
 use field::{BRICK, Field};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
@@ -77,14 +78,14 @@ impl Builder for Ssm {
         format!("{} divide={divide}", self.settings.display())
     }
 
-    fn build<'s>(&self, scene: &'s Scene, need: &Need) -> Result<Box<dyn Accel + 's>, BuildError> {
-        self.build_unless(scene, need, Cancel::NEVER)
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
+        self.build_unless(scene, workload, Cancel::NEVER)
     }
 
     fn build_unless<'s>(
         &self,
         scene: &'s Scene,
-        _: &Need,
+        _: &Workload,
         cancel: Cancel,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
         primitives::with_objects(scene, self.settings.kernel, Build(*self, cancel))

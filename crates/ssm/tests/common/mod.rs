@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 pub use accel::testing::scene;
-use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Need, Ray, RaySet, Scene, Vec3};
+use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Ray, RaySet, Scene, Vec3, Workload};
 use baselines::Brute;
 use primitives::KernelId;
 
@@ -103,7 +103,7 @@ pub fn rays(scene: &Scene, count: usize) -> RaySet {
 /// Whether all hits are the same, bit by bit; and occlusion the same.
 pub fn compare(scene: &Scene, kernel: KernelId, rays: &RaySet, what: &str, built: &dyn Accel) {
     let mut reference = vec![None; rays.len()];
-    Brute::new(kernel).build(scene, &Need::GENERAL).unwrap().trace(rays, &mut reference);
+    Brute::new(kernel).build(scene, &Workload::GENERAL).unwrap().trace(rays, &mut reference);
     let mut hits: Vec<Option<Hit>> = vec![None; rays.len()];
     built.trace(rays, &mut hits);
     let mut occluded = vec![false; rays.len()];

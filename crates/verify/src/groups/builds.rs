@@ -4,7 +4,7 @@ use super::group::Group;
 use super::subject::{Subject, Verdict};
 use crate::cases::{self, Reach, Shape};
 use crate::compare::same;
-use accel::{Cancel, Need, Ray, RaySet, Scene};
+use accel::{Cancel, Ray, RaySet, Scene, Workload};
 use harness::registry::{Choice, guarded_build, guarded_build_unless};
 use primitives::KernelId;
 use scenes::Random;
@@ -43,7 +43,7 @@ fn cancelled(subject: &Subject) -> Verdict {
     loop {
         let looked = AtomicU64::new(0);
         let asked = || looked.fetch_add(1, Relaxed) >= moment;
-        match guarded_build_unless(&choice, &scene, &Need::GENERAL, Cancel::when(&asked)) {
+        match guarded_build_unless(&choice, &scene, &Workload::GENERAL, Cancel::when(&asked)) {
             Ok(_) => return Verdict::Passed { checks },
             Err(failure) if failure.is_cancelled() => checks += 1,
             Err(failure) => return Verdict::Wrong { what: format!("at moment {moment}: {failure}") },
@@ -68,7 +68,7 @@ fn limited(subject: &Subject) -> Verdict {
             Ok(choice) => choice,
             Err(error) => return Verdict::Wrong { what: error.to_string() },
         };
-        let (built, used) = heap::observe(|| guarded_build(&choice, &scene, &Need::GENERAL).map(drop));
+        let (built, used) = heap::observe(|| guarded_build(&choice, &scene, &Workload::GENERAL).map(drop));
         let peak = used.map_or(0, |used| used.peak);
         if peak > limit + limit / 20 + ROOM {
             return Verdict::Wrong { what: format!("with {limit} bytes it takes {peak}") };
@@ -88,7 +88,8 @@ fn threads(subject: &Subject) -> Verdict {
     let set = RaySet::List(rays);
     let answers = || {
         let mut hits = vec![None; set.len()];
-        let built = guarded_build(&choice, &scene, &Need::GENERAL).map_err(|failure| failure.to_string())?;
+        let built =
+            guarded_build(&choice, &scene, &Workload::GENERAL).map_err(|failure| failure.to_string())?;
         built.trace(&set, &mut hits);
         Ok::<_, String>(hits)
     };
@@ -122,7 +123,7 @@ fn memory(subject: &Subject) -> Verdict {
     let choice = subject.choice(KernelId::Exact);
     // What a library or a thread allocates once, at its first use, belongs to no structure.
     let left = (0..4).filter_map(|_| {
-        let build = || guarded_build(&choice, &scene, &Need::GENERAL).map(drop);
+        let build = || guarded_build(&choice, &scene, &Workload::GENERAL).map(drop);
         Some(heap::observe(build).1?.left.abs())
     });
     match left.min() {

@@ -1,7 +1,7 @@
 //! Who is asked, and what it answers.
 
 use crate::compare::compare;
-use accel::{Accel, Hit, Need, Ray, RaySet, Scene};
+use accel::{Accel, Hit, Ray, RaySet, Scene, Workload};
 use harness::check::oracle_of;
 use harness::guard::guard;
 use harness::registry::{BuildFailure, Choice, Entry, StructureSpec, guarded_build};
@@ -95,7 +95,7 @@ impl Subject {
     }
 
     pub(super) fn build<'s>(&self, scene: &'s Scene) -> Result<Box<dyn Accel + 's>, BuildFailure> {
-        guarded_build(&self.choice(KernelId::Exact), scene, &Need::GENERAL)
+        guarded_build(&self.choice(KernelId::Exact), scene, &Workload::GENERAL)
     }
 
     /// Holds it to brute force and the oracle on these rays; of a library it is counted how often it is wrong.

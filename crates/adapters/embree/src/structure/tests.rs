@@ -37,7 +37,7 @@ fn list(count: usize) -> RaySet {
 }
 
 fn hits_of(builder: &dyn Builder, scene: &Scene, rays: &RaySet) -> (Vec<Option<Hit>>, Vec<bool>) {
-    let built = builder.build(scene, &Need::of(rays)).unwrap();
+    let built = builder.build(scene, &Workload::of(rays)).unwrap();
     let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
     built.trace(rays, &mut hits);
     built.trace_occluded(rays, &mut occluded);
@@ -171,15 +171,15 @@ fn the_wrapper_refuses_what_would_be_read_out_of_bounds() {
     let mut scene = small_triangles(2);
     let Geometry::Triangles(mesh) = &mut scene.geometry else { unreachable!("triangles") };
     mesh.triangles.push([0, 1, 6]);
-    let error = WrapperBuilder.build(&scene, &Need::GENERAL).err().unwrap().to_string();
+    let error = WrapperBuilder.build(&scene, &Workload::GENERAL).err().unwrap().to_string();
     assert!(error.contains("triangle 2 names position 6 of 6"), "{error}");
 }
 
 #[test]
 fn the_wrapper_s_footprint_is_a_twin_s_and_its_copies() {
     let scene = small_triangles(2000);
-    let plain = EmbreeBuilder::new(Variant::Plain).build(&scene, &Need::GENERAL).unwrap().footprint();
-    let wrapped = WrapperBuilder.build(&scene, &Need::GENERAL).unwrap();
+    let plain = EmbreeBuilder::new(Variant::Plain).build(&scene, &Workload::GENERAL).unwrap().footprint();
+    let wrapped = WrapperBuilder.build(&scene, &Workload::GENERAL).unwrap();
     let structure = |footprint: &Footprint| footprint.bytes(accel::Group::Structure);
     assert_eq!(structure(&wrapped.footprint()), structure(&plain));
     assert_eq!(wrapped.footprint().bytes(accel::Group::GeometryCopy), 2000 * (3 * 12 + 12));
@@ -189,9 +189,9 @@ fn the_wrapper_s_footprint_is_a_twin_s_and_its_copies() {
 #[test]
 fn what_embree_does_not_serve_is_refused_with_a_reason() {
     let boxes = scene(Geometry::Boxes(vec![Aabb { min: Vec3::ZERO, max: Vec3::ONE }]));
-    let error = EmbreeBuilder::new(Variant::Plain).build(&boxes, &Need::GENERAL).err();
+    let error = EmbreeBuilder::new(Variant::Plain).build(&boxes, &Workload::GENERAL).err();
     assert_eq!(error.unwrap().to_string(), "embree does not serve boxes: Embree has triangles");
-    let error = WrapperBuilder.build(&boxes, &Need::GENERAL).err();
+    let error = WrapperBuilder.build(&boxes, &Workload::GENERAL).err();
     assert_eq!(error.unwrap().to_string(), "embree-rs does not serve boxes: Embree has triangles");
 }
 
@@ -202,7 +202,7 @@ fn the_footprint_is_the_monitor_s_and_the_plan_names_the_version() {
     assert_eq!((builder.id(), builder.settings().as_str()), ("embree", "quality=medium denormals=keep"));
     let narrow = EmbreeBuilder { isa: Some(Isa::Avx2), ..EmbreeBuilder::new(Variant::Packet) };
     assert_eq!(narrow.settings(), "quality=medium denormals=keep isa=avx2 coherent=rasters");
-    let built = builder.build(&scene, &Need::GENERAL).unwrap();
+    let built = builder.build(&scene, &Workload::GENERAL).unwrap();
     let bytes = built.footprint().total();
     assert!(bytes > 2000 * 20 && bytes < 2000 * 400, "{bytes}");
     assert!(built.plan().starts_with("Embree 4."), "{}", built.plan());

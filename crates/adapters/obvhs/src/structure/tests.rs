@@ -39,7 +39,7 @@ fn all_builders() -> impl Iterator<Item = ObvhsBuilder> {
 }
 
 fn hits_of(builder: &dyn Builder, scene: &Scene, rays: &RaySet) -> (Vec<Option<Hit>>, Vec<bool>) {
-    let built = builder.build(scene, &Need::GENERAL).unwrap();
+    let built = builder.build(scene, &Workload::GENERAL).unwrap();
     let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
     built.trace(rays, &mut hits);
     built.trace_occluded(rays, &mut occluded);
@@ -89,7 +89,7 @@ fn scenes_of_none_one_and_equal_triangles_are_built() {
         for count in [0, 1, 2, 100] {
             let mesh = Mesh { positions: positions.clone(), triangles: vec![[0, 1, 2]; count] };
             let scene = scene(Geometry::Triangles(mesh));
-            let built = builder.build(&scene, &Need::GENERAL).unwrap();
+            let built = builder.build(&scene, &Workload::GENERAL).unwrap();
             assert_eq!(built.closest(&ray).is_some(), count > 0, "{builder:?} {count}");
             assert_eq!(built.occluded(&ray), count > 0);
             let short = Ray { t_max: 0.5, ..ray };
@@ -107,7 +107,7 @@ fn extents_whose_areas_overflow_are_refused_before_obvhs_sees_them() {
         let Geometry::Triangles(mesh) = &mut scene.geometry else { unreachable!("triangles") };
         mesh.positions.iter_mut().for_each(|position| *position *= 2_f32.powi(exponent));
         for builder in all_builders() {
-            let built = builder.build(&scene, &Need::GENERAL);
+            let built = builder.build(&scene, &Workload::GENERAL);
             assert_eq!(built.is_ok(), exponent <= 40, "{builder:?} 2^{exponent}");
             if let Err(error) = built {
                 assert!(error.to_string().contains("out of obvhs' reach"), "{error}");
@@ -122,7 +122,7 @@ fn footprints_hold_nodes_indices_and_triangles() {
     for variant in Variant::ALL {
         let builder = ObvhsBuilder::new(variant);
         assert_eq!(builder.settings(), "build=medium");
-        let footprint = builder.build(&scene, &Need::GENERAL).unwrap().footprint();
+        let footprint = builder.build(&scene, &Workload::GENERAL).unwrap().footprint();
         let bytes = |name| footprint.parts.iter().find(|part| part.name == name).map_or(0, |part| part.bytes);
         assert_eq!(bytes("objects"), 64_000, "{variant:?}");
         assert_eq!(bytes("indices"), 4_000, "{variant:?}");
@@ -145,7 +145,7 @@ fn compressed_triangles_are_nearly_the_scene() {
         let others = hits.iter().zip(&wanted).filter(|(a, b)| object(a) != object(b)).count();
         assert!(others * 100 <= rays.len(), "{others} differ");
         assert!(hits.iter().zip(&wanted).any(|(a, b)| a != b), "something is lost");
-        let footprint = compressed.build(&scene, &Need::GENERAL).unwrap().footprint();
+        let footprint = compressed.build(&scene, &Workload::GENERAL).unwrap().footprint();
         assert!(footprint.parts.iter().any(|part| part.name == "objects" && part.bytes == 24 * 600));
     }
 }

@@ -64,7 +64,7 @@ pub const ENTRIES: &[Entry] = &[
         description: "the paper's bit maps as plain bit vectors",
         source: "Skala 1993, §2, §5, appendix",
         settings: &bmssm::suite::dense::Settings::NAMES,
-        traits: Traits { by_need: true, linear: true, ..Traits::BUILT_IN },
+        traits: Traits { by_workload: true, linear: true, ..Traits::BUILT_IN },
         variants: &[
             "resolution=1",
             "resolution=4",
@@ -82,7 +82,7 @@ pub const ENTRIES: &[Entry] = &[
         description: "bit maps over blocks of 64 objects: in image space for rasters, in space for lists",
         source: "after Skala 1993",
         settings: &bmssm::suite::fast::Settings::NAMES,
-        traits: Traits { by_need: true, any_kernel: true, ..Traits::BUILT_IN },
+        traits: Traits { by_workload: true, any_kernel: true, ..Traits::BUILT_IN },
         variants: &[
             "stretch=256",
             "simd=portable",
