@@ -94,9 +94,16 @@ pub trait Blocks: Send + Sync {
         false
     }
 
-    /// Tests rays and objects in pairs and defers none of them; `best` has a place for each ray of the packet.
+    /// Tests rays and objects in pairs; `best` has a place for each ray of the packet. Hits may be deferred until
+    /// [`Blocks::resolve_each`].
     fn pairs<S: Simd>(&self, s: S, pairs: &Pairs<'_, S>, best: &mut [Nearest; ROW]) {
         self.pairs_one_by_one(s, pairs, best);
+    }
+
+    /// Resolves what [`Blocks::pairs`] deferred for each of the rays.
+    #[inline(always)]
+    fn resolve_each<S: Simd>(&self, s: S, rays: &[Ray], best: &mut [Nearest]) {
+        let _ = (s, rays, best);
     }
 
     /// [`Blocks::pairs`], each by [`Blocks::closest`].

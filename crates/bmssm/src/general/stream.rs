@@ -49,7 +49,9 @@ impl<O: PackedObjects> General<O> {
                 self.drain_beams::<S, C, ANY>(s, octant, ready, top, room, count);
             }
         }
-        if !O::Blocks::takes_pairs::<S>() {
+        if O::Blocks::takes_pairs::<S>() {
+            self.objects.resolve_each(s, rays, &mut room.best[..rays.len()]);
+        } else {
             for (one, best) in room.ones.iter().zip(&mut room.best) {
                 self.objects.resolve(one, best);
             }
@@ -164,7 +166,7 @@ impl<O: PackedObjects> General<O> {
                 self.objects.pairs(s, &pairs, &mut nearest);
                 for (lane, (nearest, id)) in nearest.iter().zip(ids).enumerate() {
                     let id = usize::from(*id);
-                    if nearest.object != best[id].object {
+                    if nearest.object != best[id].object || nearest.t != best[id].t {
                         best[id] = *nearest;
                         let limit = if ANY { Traveller::DONE } else { spans[id].limit(nearest.t) };
                         (limits[lane], changed) = (limit, changed | 1 << lane);

@@ -1,7 +1,7 @@
 //! The capability of telling what is certain before a test is decided.
 
-use super::{Kernel, Packed, Prepared};
-use lanes::packet::{Bounds, Lanes, Packet};
+use super::{Packed, Permuted, Prepared};
+use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
 use lanes::{Row, Simd};
 
 /// What a kernel can tell of a test without deciding it.
@@ -9,7 +9,7 @@ use lanes::{Row, Simd};
 /// Worth while where that is enough to find the nearest hit, and costs so much less than a decision that hits are better
 /// decided when the nearest is known. A certain hit must lie in the triangle and its t, once decided, be correctly
 /// rounded.
-pub trait Deferral: Kernel {
+pub trait Deferral: Permuted {
     /// What can be told of [`Kernel::triangles`], of the lanes `wanted`.
     fn bounds_one<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, wanted: u32, t_max: f32) -> Bounds<S>;
 
@@ -19,6 +19,15 @@ pub trait Deferral: Kernel {
 
     /// What can be told of [`Kernel::rays`].
     fn bounds<S: Simd>(s: S, rays: &Self::Many<S>, packed: Packed<'_>, t_max: S::F) -> Bounds<S>;
+
+    /// What can be told of each ray and the triangle in its own lane, of the lanes `wanted`.
+    fn bounds_each<S: Simd>(
+        s: S,
+        rays: &Self::Many<S>,
+        corners: [Vec3Lanes<S>; 3],
+        wanted: u32,
+        t_max: S::F,
+    ) -> Bounds<S>;
 
     /// [`Deferral::bounds`] of a prepared triangle.
     fn bounds_prepared<S: Simd>(s: S, rays: &Self::Many<S>, prepared: Prepared<'_>, t_max: S::F)

@@ -37,7 +37,7 @@ pub use exact::Exact;
 pub use id::KernelId;
 pub use moller_trumbore::MollerTrumbore;
 pub use packed::Packed;
-pub use paired::{InPairs, Paired};
+pub use paired::{InPairs, Paired, Permuted};
 pub use preparation::{Preparation, Prepared, Unprepared};
 pub use quantisation_grid::QuantisationGrid;
 pub use quantised::Quantised;

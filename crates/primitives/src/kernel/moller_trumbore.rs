@@ -3,7 +3,8 @@
 
 use super::packed::splat_row3;
 use super::{
-    Floats, InPairs, Kernel, KernelId, Packed, Paired, Preparation, Prepared, cross3, dot3, store_rows, sub3,
+    Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, Preparation, Prepared, cross3, dot3,
+    store_rows, sub3,
 };
 use accel::{Common, Ray};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
@@ -40,6 +41,13 @@ impl Kernel for MollerTrumbore {
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &Packet<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
         test(s, rays, packed.splat_corners(s), t_max)
+    }
+}
+
+impl Permuted for MollerTrumbore {
+    #[inline(always)]
+    fn permuted<S: Simd>(s: S, rays: &Packet<S>, at: S::U) -> Packet<S> {
+        rays.permuted(s, at)
     }
 }
 

@@ -2,7 +2,7 @@
 //! Computer Graphics Techniques 2(1), 2013: the ray is sheared onto an axis, edge functions
 //! are evaluated in the plane, and a zero edge function is evaluated again in `f64`.
 
-use super::{Floats, Immediate, Kernel, KernelId, Packed, Unprepared, det2, dot3, sub3};
+use super::{Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, Unprepared, det2, dot3, sub3};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use lanes::{ROW, Simd};
@@ -39,6 +39,19 @@ enum Dominant<S: Simd> {
 }
 
 impl<S: Simd> Dominant<S> {
+    /// Those of the lanes whose numbers `at` holds.
+    #[inline(always)]
+    fn permuted(&self, s: S, at: S::U) -> Self {
+        match *self {
+            Self::Same(axis) => Self::Same(axis),
+            Self::Mixed { x, y } => {
+                let (zero, one) = (s.splat(0.0), s.splat(1.0));
+                let (x, y) = (s.select(x, one, zero), s.select(y, one, zero));
+                Self::Mixed { x: s.lt(zero, s.permute(x, at)), y: s.lt(zero, s.permute(y, at)) }
+            }
+        }
+    }
+
     /// The coordinates in the order: next after the dominant axis, the one after, dominant.
     #[inline(always)]
     fn rotate(&self, s: S, v: Vec3Lanes<S>) -> Vec3Lanes<S> {
@@ -71,7 +84,7 @@ fn shear<S: Simd>(s: S, [x, y, z]: Vec3Lanes<S>) -> Vec3Lanes<S> {
 impl Kernel for Watertight {
     const ID: KernelId = KernelId::Watertight;
     type Preparation = Unprepared;
-    type Search = Immediate;
+    type Search = InPairs;
     type Storage = Floats;
     type One = Sheared;
     type Many<S: Simd> = ShearedLanes<S>;
@@ -125,6 +138,26 @@ impl Kernel for Watertight {
     #[inline(always)]
     fn rays<S: Simd>(s: S, rays: &ShearedLanes<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
         test(s, rays, packed.splat_corners(s), t_max)
+    }
+}
+
+impl Permuted for Watertight {
+    #[inline(always)]
+    fn permuted<S: Simd>(s: S, rays: &ShearedLanes<S>, at: S::U) -> ShearedLanes<S> {
+        let ([x, y, z], [sx, sy, sz]) = (rays.origin, rays.shear);
+        ShearedLanes {
+            origin: [s.permute(x, at), s.permute(y, at), s.permute(z, at)],
+            t_min: s.permute(rays.t_min, at),
+            dominant: rays.dominant.permuted(s, at),
+            shear: [s.permute(sx, at), s.permute(sy, at), s.permute(sz, at)],
+        }
+    }
+}
+
+impl Paired for Watertight {
+    #[inline(always)]
+    fn each<S: Simd>(s: S, rays: &ShearedLanes<S>, corners: [Vec3Lanes<S>; 3], t_max: S::F) -> Lanes<S> {
+        test(s, rays, corners, t_max)
     }
 }
 

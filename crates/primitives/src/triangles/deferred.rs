@@ -3,13 +3,14 @@
 #[cfg(doc)]
 use super::frame::Frame;
 use super::frame::Limits;
+use super::pairs::{Group, limits};
 use super::pending::{PendingHit, defer, lower_bound, pending};
 use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search};
 use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Deferral, Deferred, Floats, Packed};
-use accel::{Nearest, Surface};
-use lanes::packet::{Bounds, Lanes, NearestPacket, Packet};
-use lanes::{ROW, Row, Scalar, Simd};
+use accel::{Nearest, Objects, Ray, Surface};
+use lanes::packet::{Bounds, Lanes, NearestPacket, Packet, Pairs, RayRows};
+use lanes::{Blocks, ROW, Row, Scalar, Simd};
 
 /// As many rows as kernels pack, or more.
 const MOST_ROWS: usize = 16;
@@ -80,6 +81,112 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
         false
     }
 
+    const IN_PAIRS: bool = true;
+
+    /// As [`Search::closest`] does with each ray.
+    #[inline(always)]
+    fn pairs<'s, S: Simd>(blocks: &TriangleBlocks<'s, K>, s: S, pairs: &Pairs<S>, best: &mut [Nearest; ROW])
+    where
+        TriangleBlocks<'s, K>: Blocks,
+    {
+        let many = blocks.prepare_many(s, pairs.packet);
+        let near = if blocks.in_place { 0 } else { s.bits(many.near) };
+        let rows = RayRows::of(s, pairs.packet);
+        let mut t_max = limits(best);
+        for at in (0..pairs.len).step_by(S::LANES) {
+            let group = Group::at(s, pairs, at);
+            let corners = blocks.corners_each(s, pairs, &group);
+            let t = s.permute(s.load(&t_max), group.ray);
+            let bounds =
+                K::bounds_each(s, &K::permuted(s, &many.prepared, group.ray), corners, group.wanted, t);
+            let mut undecided = s.bits(bounds.undecided) & group.wanted;
+            if undecided == 0 {
+                continue;
+            }
+            let (mut low, mut high) = ([0.0; ROW], [0.0; ROW]);
+            s.store(bounds.low, &mut low);
+            s.store(bounds.high, &mut high);
+            let mut certain = undecided & s.bits(bounds.certain);
+            while let Some(lane) = next_lane(&mut certain) {
+                let (slot, place) = (blocks.slot_of(pairs, &group, lane), group.place(lane));
+                if near >> place & 1 != 0 && high[lane] < lower_bound(&best[place]) {
+                    PendingHit { slot, low: low[lane], high: high[lane] }.wait(&mut best[place]);
+                    t_max[place] = if pairs.any { f32::NEG_INFINITY } else { high[lane] };
+                    undecided &= !(1 << lane);
+                }
+            }
+            while let Some(lane) = next_lane(&mut undecided) {
+                let (slot, place) = (blocks.slot_of(pairs, &group, lane), group.place(lane));
+                let best = &mut best[place];
+                let known = PendingHit::in_place_of(best).is_some_and(|pending| pending.slot == slot);
+                if known || low[lane] > t_max[place] {
+                    continue;
+                }
+                blocks.decide_pair(&rows.ray(place), slot, high[lane], best);
+                if best.object != Nearest::NONE {
+                    t_max[place] = if pairs.any { f32::NEG_INFINITY } else { best.t };
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn in_place<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        mut set: Candidates,
+        ray: &Ray,
+        any: bool,
+        best: &mut Nearest,
+    ) {
+        let many = K::many(s, &blocks.triangles.frame.packet(s, &Packet::splat(s, ray)));
+        while set.mask != 0 {
+            let (chosen, len) = blocks.next_in_place::<S>(&mut set);
+            if len == 0 {
+                return;
+            }
+            let (corners, wanted) = (blocks.corners_in_place(s, &chosen), u32::MAX >> (32 - len));
+            let bounds = K::bounds_each(s, &many, corners, wanted, s.splat(best.t));
+            let mut undecided = s.bits(bounds.undecided) & wanted;
+            while let Some(lane) = next_lane(&mut undecided) {
+                blocks.triangles.closest(chosen[lane], ray, best);
+                if any && best.object != Nearest::NONE {
+                    return;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn offer<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        object: u32,
+        mut lanes: Lanes<S>,
+        rays: &Packet<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        blocks.take_ties(s, object, &mut lanes, rays, best);
+        best.offer(s, object, &lanes);
+    }
+
+    #[inline(always)]
+    fn resolve_each<S: Simd>(blocks: &TriangleBlocks<K>, s: S, rays: &[Ray], best: &mut [Nearest]) {
+        for (rays, best) in rays.chunks(S::LANES).zip(best.chunks_mut(S::LANES)) {
+            if best.iter().all(|best| PendingHit::in_place_of(best).is_none()) {
+                continue;
+            }
+            let (mut chosen, mut nearest) = ([&rays[0]; ROW], [Nearest::new(0.0); ROW]);
+            for (lane, (ray, best)) in rays.iter().zip(&*best).enumerate() {
+                (chosen[lane], nearest[lane]) = (ray, *best);
+            }
+            let rays = Packet::gather(s, &chosen);
+            let mut nearest = NearestPacket::load(s, &nearest);
+            blocks.resolve_lanes(s, &rays, u32::MAX, &mut nearest);
+            nearest.store(s, best);
+        }
+    }
+
     #[inline(always)]
     fn resolve(blocks: &TriangleBlocks<K>, ray: &OneRay<K>, best: &mut Nearest) {
         blocks.resolve_one(ray, best);
@@ -120,7 +227,7 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
         rays: &Rays<K, S>,
         best: &mut NearestPacket<S>,
     ) {
-        blocks.resolve_lanes(s, rays, u32::MAX, best);
+        blocks.resolve_lanes(s, &rays.rays, u32::MAX, best);
     }
 }
 
@@ -141,6 +248,15 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
             }
             self.offer_one(ray, self.ids.get(slot), surface, best);
         }
+    }
+
+    /// Decides the test of a ray that isn't prepared.
+    #[inline(never)]
+    fn decide_pair(&self, ray: &Ray, slot: usize, high: f32, best: &mut Nearest) {
+        if self.in_place {
+            return self.triangles.closest(self.ids.get(slot), ray, best);
+        }
+        self.decide_one(&self.prepare_one(ray), slot, high, best);
     }
 
     /// The hit on the triangle in a slot.
@@ -221,18 +337,16 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
         let lanes = K::decide(s, &rays.prepared, self.packed(slot), undecided, best.t);
         let hits = s.bits(lanes.hit);
         if hits != 0 {
-            self.resolve_lanes(s, rays, hits, best);
+            self.resolve_lanes(s, &rays.rays, hits, best);
             let limits = Limits::of(&self.triangles.frame, &self.corners_of(slot));
-            let mut lanes = self.held(s, slot, rays, &limits, lanes);
-            let object = self.ids.get(slot);
-            self.take_ties(s, object, &mut lanes, &rays.rays, best);
-            best.offer(s, object, &lanes);
+            let lanes = self.held(s, slot, rays, &limits, lanes);
+            Deferred::offer(self, s, self.ids.get(slot), lanes, &rays.rays, best);
         }
     }
 
     /// Resolves the pending hits of the lanes `which`; `best` holds their slots.
     #[inline(always)]
-    fn resolve_lanes<S: Simd>(&self, s: S, rays: &Rays<K, S>, which: u32, best: &mut NearestPacket<S>) {
+    fn resolve_lanes<S: Simd>(&self, s: S, rays: &Packet<S>, which: u32, best: &mut NearestPacket<S>) {
         const { assert!(K::ROWS <= MOST_ROWS) };
         let deferred = s.bits(pending(s, best)) & which;
         if deferred == 0 {
@@ -249,7 +363,7 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
             }
             slots[lane] = self.ids.get(slot);
         }
-        let rays = self.triangles.frame.packet(s, &rays.rays);
+        let rays = self.triangles.frame.packet(s, rays);
         let found = K::resolve(s, &rays, &group[..K::ROWS], deferred);
         best.take_each(s, s.mask(deferred), &slots, &found);
     }

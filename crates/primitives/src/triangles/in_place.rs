@@ -35,7 +35,8 @@ impl<K: TriangleKernel> TriangleBlocks<'_, K> {
         K::pack(&frame.corners(&corners), &mut group[..K::ROWS], 0);
         let lanes = K::rays(s, &rays.prepared, Packed::new(&group[..K::ROWS], 0), best.t);
         if s.bits(lanes.hit) != 0 {
-            self.offer(s, slot, rays, &Limits::of(frame, &corners), lanes, best);
+            let lanes = self.held(s, slot, rays, &Limits::of(frame, &corners), lanes);
+            K::Search::offer(self, s, object, lanes, &rays.rays, best);
         }
     }
 

@@ -7,6 +7,7 @@ mod immediate;
 mod in_pairs;
 mod in_place;
 mod pack;
+mod pairs;
 mod pending;
 mod search;
 #[cfg(test)]
@@ -155,6 +156,29 @@ impl Scratch {
 }
 
 impl<K: Kernel> TriangleBlocks<'_, K> {
+    /// Prepares a ray.
+    #[inline(always)]
+    fn prepare_one(&self, ray: &Ray) -> TriangleRay<K::One> {
+        let frame = &self.triangles.frame;
+        // A ray without a range, as NaN makes it, has no certain hits.
+        let near = frame.is_near(ray.origin) && ray.t_min <= ray.t_max;
+        TriangleRay { prepared: K::one(&frame.ray(ray)), ray: *ray, near }
+    }
+
+    /// Prepares `LANES` rays.
+    #[inline(always)]
+    fn prepare_many<S: Simd>(&self, s: S, rays: &Packet<S>) -> TrianglePacket<S, K::Many<S>> {
+        let frame = &self.triangles.frame;
+        let near = s.splat(frame.near);
+        let mut all = s.mask(u32::MAX);
+        for axis in 0..3 {
+            let distance = s.abs(s.sub(rays.origin[axis], s.splat(frame.center[axis])));
+            all = s.and(all, s.le(distance, near));
+        }
+        let near = s.and(all, s.le(rays.t_min, rays.t_max));
+        TrianglePacket { prepared: K::many(s, &frame.packet(s, rays)), rays: *rays, near }
+    }
+
     /// A slot's group as it is kept.
     #[inline(always)]
     fn units(&self, slot: usize) -> &[<K::Storage as Storage>::Unit] {
@@ -233,23 +257,12 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
 
     #[inline(always)]
     fn one(&self, ray: &Ray) -> Self::One {
-        let frame = &self.triangles.frame;
-        // A ray without a range, as NaN makes it, has no certain hits.
-        let near = frame.is_near(ray.origin) && ray.t_min <= ray.t_max;
-        TriangleRay { prepared: K::one(&frame.ray(ray)), ray: *ray, near }
+        self.prepare_one(ray)
     }
 
     #[inline(always)]
     fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Self::Many<S> {
-        let frame = &self.triangles.frame;
-        let near = s.splat(frame.near);
-        let mut all = s.mask(u32::MAX);
-        for axis in 0..3 {
-            let distance = s.abs(s.sub(rays.origin[axis], s.splat(frame.center[axis])));
-            all = s.and(all, s.le(distance, near));
-        }
-        let near = s.and(all, s.le(rays.t_min, rays.t_max));
-        TrianglePacket { prepared: K::many(s, &frame.packet(s, rays)), rays: *rays, near }
+        self.prepare_many(s, rays)
     }
 
     #[inline(always)]
@@ -283,6 +296,11 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn pairs<S: Simd>(&self, s: S, pairs: &Pairs<'_, S>, best: &mut [Nearest; ROW]) {
         K::Search::pairs(self, s, pairs, best);
+    }
+
+    #[inline(always)]
+    fn resolve_each<S: Simd>(&self, s: S, rays: &[Ray], best: &mut [Nearest]) {
+        K::Search::resolve_each(self, s, rays, best);
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@ use super::{CORNER_ROWS, Scratch, TriangleBlocks, TrianglePacket, TriangleRay};
 use crate::Kernel;
 use crate::kernel::{Packed, Preparation, Prepared};
 use accel::{Nearest, Objects, Ray};
-use lanes::packet::{NearestPacket, Pairs};
+use lanes::packet::{Lanes, NearestPacket, Packet, Pairs};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, ROW, Row, Simd};
 
 /// Kernels that triangles in blocks are tested by: those whose [`Kernel::Search`] is one.
@@ -99,6 +99,26 @@ pub trait Search<K: Kernel>: 'static {
         TriangleBlocks<'s, K>: Blocks,
     {
         blocks.pairs_one_by_one(s, pairs, best);
+    }
+
+    /// Offers hits on `object` that are decided; of those at the same t as another's the lower number comes first by default.
+    #[inline(always)]
+    fn offer<S: Simd>(
+        blocks: &TriangleBlocks<K>,
+        s: S,
+        object: u32,
+        lanes: Lanes<S>,
+        rays: &Packet<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let _ = (blocks, rays);
+        best.offer(s, object, &lanes);
+    }
+
+    /// [`Blocks::resolve_each`]
+    #[inline(always)]
+    fn resolve_each<S: Simd>(blocks: &TriangleBlocks<K>, s: S, rays: &[Ray], best: &mut [Nearest]) {
+        let _ = (blocks, s, rays, best);
     }
 
     /// [`Blocks::closest`], or [`Blocks::any`], where nothing is packed but numbers.

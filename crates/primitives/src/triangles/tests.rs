@@ -50,6 +50,8 @@ impl<B: Blocks> Task for ByMask<'_, B> {
             let packet = &Packet::load(s, &rays[first..]);
             let pairs = Pairs { block: 0, packet, rays: &places, slots: &slots, len, any: false };
             blocks.pairs(s, &pairs, &mut paired);
+            let here = &rays[first..first + S::LANES];
+            blocks.resolve_each(s, here, &mut paired[..S::LANES]);
             for lane in 0..S::LANES {
                 (out[first + lane][1], out[first + lane][2]) = (stored[lane], paired[lane]);
             }

@@ -33,10 +33,10 @@ mod tests;
 
 use super::packed::pack_corners;
 use super::wide::{OneEach, OneRay, OneTriangle};
-use super::{Corners, Deferral, Deferred, Floats, Kernel, KernelId, Packed, Preparation, Prepared};
+use super::{Corners, Deferral, Deferred, Floats, Kernel, KernelId, Packed, Permuted, Preparation, Prepared};
 use accel::{Common, Ray};
 use lanes::packet::RayRows;
-use lanes::packet::{Bounds, Lanes, Packet};
+use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
 use lanes::{Row, Scalar, Simd};
 use quotient::Quotient;
 use signs::{Place, meet_at_corner, place, same_point};
@@ -140,6 +140,13 @@ impl Preparation<Self> for Exact {
     }
 }
 
+impl Permuted for Exact {
+    #[inline(always)]
+    fn permuted<S: Simd>(s: S, rays: &SpannedLanes<S>, at: S::U) -> SpannedLanes<S> {
+        SpannedLanes { rays: rays.rays.permuted(s, at), span: rays.span.permuted(s, at) }
+    }
+}
+
 impl Deferral for Exact {
     #[inline(always)]
     fn bounds_one<S: Simd>(s: S, ray: &Spanned, packed: Packed<'_>, wanted: u32, t_max: f32) -> Bounds<S> {
@@ -163,6 +170,18 @@ impl Deferral for Exact {
         let length = s.splat(packed.group[LENGTH_ROW].0[packed.lane]);
         let corners = packed.splat_corners(s);
         reject::bounds(s, &rays.rays, &rays.span, corners, length, u32::MAX, t_max)
+    }
+
+    #[inline(always)]
+    fn bounds_each<S: Simd>(
+        s: S,
+        rays: &SpannedLanes<S>,
+        corners: [Vec3Lanes<S>; 3],
+        wanted: u32,
+        t_max: S::F,
+    ) -> Bounds<S> {
+        let lengths = reject::lengths(s, corners);
+        reject::bounds(s, &rays.rays, &rays.span, corners, lengths, wanted, t_max)
     }
 
     #[inline(always)]

@@ -67,6 +67,14 @@ impl<S: Simd> Span<S> {
     }
 }
 
+impl<S: Simd> Span<S> {
+    /// Those of the lanes whose numbers `at` holds.
+    #[inline(always)]
+    pub(super) fn permuted(&self, s: S, at: S::U) -> Self {
+        Self { largest: s.permute(self.largest, at) }
+    }
+}
+
 impl Span<Scalar> {
     /// The same in all lanes.
     #[inline(always)]
@@ -105,6 +113,14 @@ pub(super) fn length_of([a, b, c]: &Corners) -> f32 {
     }
     let (edge1, edge2) = (*b - *a, *c - *a);
     edge1.abs().max(edge2.abs()).max_element()
+}
+
+/// [`length_of`] in lanes.
+#[inline(always)]
+pub(super) fn lengths<S: Simd>(s: S, [a, b, c]: [Vec3Lanes<S>; 3]) -> S::F {
+    let largest = s.max(s.max(largest3(s, a), largest3(s, b)), largest3(s, c));
+    let edges = s.max(largest3(s, sub3(s, b, a)), largest3(s, sub3(s, c, a)));
+    s.select(s.le(largest, s.splat(GREAT)), edges, s.splat(f32::INFINITY))
 }
 
 /// What `f32` can tell of hits at t up to `t_max`, of the lanes `wanted`. `length` is that of [`length_of`].
