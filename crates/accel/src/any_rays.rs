@@ -41,6 +41,11 @@ impl<'s> AnyRays<'s> {
         occluded
     }
 
+    /// Every crossing in order, see [`Accel::all_hits`].
+    pub fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        if ray.validate().is_ok() { self.0.all_hits(ray) } else { Vec::new() }
+    }
+
     /// What the structure holds in memory, part by part, beside the caller's own buffers.
     pub fn footprint(&self) -> Footprint {
         self.0.footprint()

@@ -7,10 +7,12 @@
 #![forbid(unsafe_code)]
 
 mod aabb;
+pub mod all_hits;
 mod any_rays;
 mod camera;
 mod cancel;
 pub mod dda;
+pub mod expansion;
 pub mod far;
 mod footprint;
 pub mod grid;
@@ -19,6 +21,7 @@ mod memory;
 pub mod morton;
 mod objects;
 pub mod parallel;
+pub mod parity;
 mod ray;
 mod rayset;
 mod scene;

@@ -2,7 +2,7 @@
 
 #[cfg(doc)]
 use crate::tolerance::T_SLACK;
-use crate::{Aabb, Nearest, Ray, Surface};
+use crate::{Aabb, Hit, Nearest, Ray, Surface};
 
 /// The boxes of objects: all that most of a build asks for. Every [`Objects`] have them.
 pub trait Bounds: Send + Sync {
@@ -72,5 +72,16 @@ pub trait Objects: Send + Sync {
         if let Some(surface) = self.intersect(id, ray, best.t) {
             best.offer(id, surface);
         }
+    }
+
+    /// Appends every crossing of the ray with the object at t in its range, each of which satisfies the invariant above.
+    ///
+    /// By default what [`Objects::intersect`] finds, which is all there is of objects that no line meets twice.
+    ///
+    /// # Panics
+    /// If there is no such object.
+    fn crossings(&self, id: u32, ray: &Ray, found: &mut Vec<Hit>) {
+        let surface = self.intersect(id, ray, ray.t_max);
+        found.extend(surface.map(|Surface { t, u, v }| Hit { t, object: id, u, v }));
     }
 }

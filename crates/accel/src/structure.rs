@@ -31,6 +31,23 @@ pub trait Accel: Send + Sync {
         for_each_ray(rays, occluded, |ray| self.occluded(ray));
     }
 
+    /// Appends the number of every object that the ray may meet within its range, each once, in any order: none that it
+    /// hits is missing. Returns false, and appends nothing, if the structure can't tell.
+    fn candidates(&self, ray: &Ray, found: &mut Vec<u32>) -> bool {
+        let _ = (ray, found);
+        false
+    }
+
+    /// Every crossing of the ray within its range, in order of t, then of object: "find all intersection points" (Skala
+    /// 1993, §1). A ray through an edge that triangles share crosses each of them, and an object at more than one t is
+    /// crossed as often.
+    ///
+    /// By default the nearest hits are followed one behind another, which of crossings at the same t tells one only.
+    /// Structures that name [`Accel::candidates`] tell all.
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        by_steps(self, ray)
+    }
+
     /// What the structure holds in memory.
     fn footprint(&self) -> Footprint;
 
@@ -45,6 +62,20 @@ pub trait Accel: Send + Sync {
         let _ = (rays, occlusion);
         None
     }
+}
+
+/// What the nearest hits tell: from each the ray goes on behind it. Of crossings at the same t that is one.
+fn by_steps(accel: &(impl Accel + ?Sized), ray: &Ray) -> Vec<Hit> {
+    let mut hits: Vec<Hit> = Vec::new();
+    let mut rest = *ray;
+    while let Some(hit) = accel.closest(&rest) {
+        hits.push(hit);
+        rest.t_min = hit.t.max(rest.t_min).next_up();
+        if rest.t_min > rest.t_max || rest.t_min.is_infinite() {
+            break;
+        }
+    }
+    hits
 }
 
 /// Rays traced by one task of the thread pool.

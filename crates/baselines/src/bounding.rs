@@ -109,6 +109,17 @@ impl<O: Objects, V: Volume> Accel for Built<O, V> {
         })
     }
 
+    fn candidates(&self, ray: &Ray, found: &mut Vec<u32>) -> bool {
+        found.extend(
+            (0..).zip(&self.volumes).filter(|(_, volume)| volume.may_meet(ray, ray.t_max)).map(|(id, _)| id),
+        );
+        true
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        accel::all_hits::of(self, &self.objects, ray)
+    }
+
     fn footprint(&self) -> Footprint {
         Footprint::default().structure(V::NAME, vec_bytes(&self.volumes))
     }

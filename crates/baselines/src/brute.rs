@@ -40,7 +40,7 @@ impl Builder for Brute {
                     blocks: objects.blocks(&order),
                     objects: objects.len(),
                     simd: self.0,
-                    _objects: objects,
+                    all: objects,
                 })
             }
         }
@@ -52,7 +52,7 @@ struct Built<O: PackedObjects> {
     blocks: O::Blocks,
     objects: usize,
     simd: Level,
-    _objects: O,
+    all: O,
 }
 
 /// Rays that pass over the blocks together, so that each block is fetched once for all of them.
@@ -112,6 +112,15 @@ impl<O: PackedObjects> Accel for Built<O> {
         for (occluded, hit) in occluded.iter_mut().zip(hits) {
             *occluded = hit.is_some();
         }
+    }
+
+    fn candidates(&self, _: &Ray, found: &mut Vec<u32>) -> bool {
+        found.extend(0..self.objects as u32);
+        true
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        accel::all_hits::of_candidates(&self.all, ray, 0..self.objects as u32)
     }
 
     fn footprint(&self) -> Footprint {

@@ -2,7 +2,7 @@
 
 use accel::Objects;
 use accel::tolerance::pad_of;
-use accel::{Aabb, Ray, Surface};
+use accel::{Aabb, Hit, Ray, Surface};
 use lanes::{OneByOne, PackedObjects};
 
 /// Solid axis-aligned boxes. A ray from outside hits where it enters, a ray from inside
@@ -38,6 +38,14 @@ impl Objects for Boxes<'_> {
             .find(|t| *t >= ray.t_min)
             .filter(|t| *t <= t_max)
             .map(|t| Surface { t, u: 0.0, v: 0.0 })
+    }
+
+    /// Where the ray enters and where it leaves, at the same t too.
+    fn crossings(&self, id: u32, ray: &Ray, found: &mut Vec<Hit>) {
+        let Some((near, far)) = self.boxes[id as usize].overlap(ray.origin, ray.direction) else { return };
+        let there = |t: &f32| ray.t_min <= *t && *t <= ray.t_max;
+        let ends = [near as f32, far as f32].into_iter().filter(there);
+        found.extend(ends.map(|t| Hit { t, object: id, u: 0.0, v: 0.0 }));
     }
 }
 

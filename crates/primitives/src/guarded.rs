@@ -2,7 +2,7 @@
 
 use accel::input::{InputError, check_extent};
 use accel::tolerance::{holds, pad_of};
-use accel::{Aabb, Objects, Ray, Surface};
+use accel::{Aabb, Hit, Objects, Ray, Surface};
 use lanes::{OneByOne, PackedObjects};
 
 /// Objects of any kind, held to what structures rely on: boxes are padded, and a hit outside of its object's
@@ -57,6 +57,18 @@ impl<O: Objects> Objects for Guarded<'_, O> {
         let hit = self.objects.intersect(id, ray, t_max)?;
         let within = ray.t_min <= hit.t && hit.t <= t_max && holds(&self.bounds(id), ray, hit.t);
         within.then_some(hit)
+    }
+
+    fn crossings(&self, id: u32, ray: &Ray, found: &mut Vec<Hit>) {
+        let first = found.len();
+        self.objects.crossings(id, ray, found);
+        let bounds = self.bounds(id);
+        let mut at = first;
+        found.retain(|hit| {
+            at += 1;
+            let within = ray.t_min <= hit.t && hit.t <= ray.t_max && hit.object == id;
+            at <= first || within && holds(&bounds, ray, hit.t)
+        });
     }
 }
 

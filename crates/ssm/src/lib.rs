@@ -28,6 +28,7 @@
 mod compact;
 mod face;
 mod list;
+mod once;
 mod register;
 mod resolution;
 mod settings;

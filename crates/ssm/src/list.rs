@@ -152,6 +152,15 @@ impl<I: Id> Cells<I> {
     }
 }
 
+impl<I: Id> Cells<I> {
+    /// The objects of a cell.
+    #[inline(always)]
+    fn ids(&self, cell: usize) -> &[I] {
+        let first = self.pointers[cell] as usize;
+        &self.ids[first..first + self.counters[cell].widen() as usize]
+    }
+}
+
 impl<O: Objects, I: Id> Built<O, I> {
     fn new(objects: O, shape: &impl Bounds, settings: &Settings, cancel: Cancel) -> Result<Self, BuildError> {
         Ok(Self { objects, settings: *settings, cells: Cells::new(shape, settings, cancel)? })
@@ -170,9 +179,7 @@ impl<O: Objects, I: Id> Built<O, I> {
                 break;
             }
             count.cells(1);
-            let index = self.cells.grid.index(cell.slice);
-            let first = self.cells.pointers[index] as usize;
-            for id in &self.cells.ids[first..first + self.cells.counters[index].widen() as usize] {
+            for id in self.cells.ids(self.cells.grid.index(cell.slice)) {
                 let id = id.widen();
                 count.candidates(1);
                 if tested.contains_or_insert(id) {
@@ -233,6 +240,21 @@ impl<O: Objects, I: Id> Accel for Built<O, I> {
 
     fn trace(&self, rays: &RaySet, hits: &mut [Option<Hit>]) {
         for_each_ray(rays, hits, |ray| self.closest(ray));
+    }
+
+    fn candidates(&self, ray: &Ray, found: &mut Vec<u32>) -> bool {
+        let first = found.len();
+        if let Some(segment) = self.cells.grid.clip(ray) {
+            for cell in Walk::new(&self.cells.grid, &segment) {
+                found.extend(self.cells.ids(self.cells.grid.index(cell.slice)).iter().map(|id| id.widen()));
+            }
+        }
+        crate::once::keep_once(found, first);
+        true
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        accel::all_hits::of(self, &self.objects, ray)
     }
 
     fn footprint(&self) -> Footprint {

@@ -1,6 +1,6 @@
 //! One structure held to brute force and to the oracle.
 
-use accel::{Builder, Hit, Ray, RaySet, Scene, Workload};
+use accel::{Accel, Builder, Hit, Ray, RaySet, Scene, Workload};
 use baselines::Brute;
 use harness::check::oracle_of;
 use harness::guard::guard;
@@ -85,6 +85,9 @@ pub fn compare(scene: &Scene, rays: &[Ray], spec: &str, exact: usize) -> Result<
             ));
         }
     }
+    for ray in rays.iter().take(ALONE) {
+        all_hits(&*brute, &*built, ray).map_err(|what| wrong(Some(ray), what))?;
+    }
     let judged = if kernel == KernelId::Exact {
         by_oracle(scene, &rays[..exact.min(rays.len())], &hits)
     } else {
@@ -93,6 +96,19 @@ pub fn compare(scene: &Scene, rays: &[Ray], spec: &str, exact: usize) -> Result<
     let exact = judged.map_err(|(i, what)| wrong(Some(&rays[i]), what))?;
     let hits = expected.iter().flatten().count() as u64;
     Ok(Compared { rays: rays.len() as u64, hits, exact })
+}
+
+/// Holds every crossing of a ray to brute force, if the structure tells all.
+///
+/// # Errors
+/// What is wrong.
+pub fn all_hits(brute: &dyn Accel, built: &dyn Accel, ray: &Ray) -> Result<(), String> {
+    if !built.candidates(ray, &mut Vec::new()) {
+        return Ok(());
+    }
+    let (expected, hits) = (brute.all_hits(ray), built.all_hits(ray));
+    let same = hits.len() == expected.len() && hits.iter().zip(&expected).all(|(a, b)| a.same_bits(b));
+    if same { Ok(()) } else { Err(format!("all hits are {hits:?}; brute force: {expected:?}")) }
 }
 
 /// Equality of every bit.

@@ -5,6 +5,7 @@
 //! those of slices along x, y and z ([`SpaceMaps`]) and a walk from cell to cell. Only what the
 //! workload names is built.
 
+mod all;
 mod axis;
 mod detail;
 mod image;
@@ -69,8 +70,8 @@ impl<'s> WithObjects<'s> for Build {
         let order: Vec<u32> = (0..objects.len() as u32).collect();
         let maps = Maps::new(&objects.shape(), &settings, &workload)?;
         Ok(match settings.walk {
-            Loop::Appendix => Box::new(maps.with(Appendix(objects), &settings, &workload)),
-            Loop::Words => Box::new(maps.with(Words(objects.blocks(&order)), &settings, &workload)),
+            Loop::Appendix => Box::new(maps.with(objects, Appendix(objects), &settings, &workload)),
+            Loop::Words => Box::new(maps.with(objects, Words(objects.blocks(&order)), &settings, &workload)),
         })
     }
 }
@@ -103,11 +104,11 @@ impl Maps {
         Ok(Self { objects: objects.len(), image, space })
     }
 
-    fn with<D: Detail>(self, detail: D, settings: &Settings, workload: &Workload) -> Built<D> {
+    fn with<O, D: Detail>(self, all: O, detail: D, settings: &Settings, workload: &Workload) -> Built<O, D> {
         let Self { objects, image, space } = self;
         let plan = plan(image.as_ref(), space.as_ref());
         let (simd, mailbox, general) = (settings.simd, settings.mailbox, workload.general);
-        Built { detail, image, space, objects, simd, mailbox, general, plan }
+        Built { all, detail, image, space, objects, simd, mailbox, general, plan }
     }
 }
 

@@ -4,14 +4,15 @@ use super::detail::Detail;
 use super::{ImageMaps, SpaceMaps};
 use accel::dda::Walk;
 use accel::parallel::for_each_chunk;
-use accel::{Accel, Count, Counters, Footprint, Hit, Nearest, NoCount, Ray, RaySet};
+use accel::{Accel, Count, Counters, Footprint, Hit, Nearest, NoCount, Objects, Ray, RaySet};
 use lanes::{Level, Portable, Simd, Task};
 
 /// Rays traced by one task of the thread pool.
 const CHUNK: usize = 1024;
 
 /// The maps a workload asked for, and the detail tests.
-pub struct Built<D> {
+pub struct Built<O, D> {
+    pub all: O,
     pub detail: D,
     pub image: Option<ImageMaps>,
     pub space: Option<SpaceMaps>,
@@ -89,7 +90,7 @@ struct State<R, C> {
     count: C,
 }
 
-impl<D: Detail> Built<D> {
+impl<O: Objects, D: Detail> Built<O, D> {
     /// Tests the candidates of a word; whether to go on.
     #[inline(always)]
     fn word<S: Simd, A: Answer>(
@@ -218,15 +219,15 @@ impl<D: Detail> Built<D> {
 }
 
 /// Rays `first ..` of a set, as many as there are answers to write.
-struct Chunk<'a, D, A> {
-    built: &'a Built<D>,
+struct Chunk<'a, O, D, A> {
+    built: &'a Built<O, D>,
     rays: &'a RaySet,
     route: Route<'a>,
     first: usize,
     out: &'a mut [A],
 }
 
-impl<D: Detail, A: Answer> Task for Chunk<'_, D, A> {
+impl<O: Objects, D: Detail, A: Answer> Task for Chunk<'_, O, D, A> {
     type Out = ();
 
     #[inline(always)]
@@ -255,7 +256,7 @@ impl<D: Detail, A: Answer> Task for Chunk<'_, D, A> {
     }
 }
 
-impl<D: Detail> Accel for Built<D> {
+impl<O: Objects, D: Detail> Accel for Built<O, D> {
     fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.one(ray, None)
     }
@@ -270,6 +271,15 @@ impl<D: Detail> Accel for Built<D> {
 
     fn trace_occluded(&self, rays: &RaySet, occluded: &mut [bool]) {
         self.trace_all(rays, occluded);
+    }
+
+    fn candidates(&self, ray: &Ray, found: &mut Vec<u32>) -> bool {
+        self.gather(ray, found);
+        true
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        accel::all_hits::of(self, &self.all, ray)
     }
 
     fn footprint(&self) -> Footprint {

@@ -9,6 +9,7 @@ use lanes::PackedObjects;
 
 /// What a plan built.
 pub(super) struct Built<O: PackedObjects> {
+    objects: O,
     plan: Plan,
     raster: Option<RasterMaps<O>>,
     general: Option<General<O>>,
@@ -29,7 +30,7 @@ impl<O: PackedObjects> Built<O> {
     pub fn new(objects: O, plan: Plan) -> Self {
         let raster = plan.raster.map(|(raster, settings)| RasterMaps::build(objects, &raster, settings));
         let general = plan.general.map(|settings| General::new(&objects, settings));
-        Self { plan, raster, general }
+        Self { objects, plan, raster, general }
     }
 
     /// The image maps, where the rays are the image's or there is nothing else.
@@ -91,6 +92,18 @@ impl<O: PackedObjects> Accel for Built<O> {
             Some(maps) => Accel::trace_occluded(maps, rays, occluded),
             None => self.trace_general(rays, occluded, |rays, out| self.general().occluded(rays, out)),
         }
+    }
+
+    fn candidates(&self, ray: &Ray, found: &mut Vec<u32>) -> bool {
+        if let (None, Some(maps)) = (&self.general, &self.raster) {
+            return Accel::candidates(maps, ray, found);
+        }
+        self.general().gather(ray, found);
+        true
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        accel::all_hits::of(self, &self.objects, ray)
     }
 
     fn footprint(&self) -> Footprint {

@@ -1,5 +1,7 @@
 //! The way of one ray through the levels.
 
+mod all;
+
 use super::General;
 use super::tree::{Node, WIDTH};
 use accel::grid::Segment;

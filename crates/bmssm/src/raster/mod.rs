@@ -10,6 +10,7 @@
 //!   `R & S` gives the candidates of the 4 × 4 pixels where two slices meet, which are
 //!   then tested in lanes. What lies behind all hits so far is not looked at.
 
+mod all;
 mod build;
 mod maps;
 mod order;

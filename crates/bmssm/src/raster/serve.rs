@@ -4,11 +4,19 @@ use super::RasterMaps;
 use accel::{Accel, Counters, Footprint, Hit, Raster, Ray, RaySet, for_each_ray};
 use lanes::PackedObjects;
 
-impl<O: PackedObjects> Accel for RasterMaps<O> {
-    fn closest(&self, ray: &Ray) -> Option<Hit> {
-        let Some((row, col)) = self.pixel_of(ray) else {
+impl<O: PackedObjects> RasterMaps<O> {
+    /// The pixel of a ray that has to be one of the raster's.
+    fn asked_for(&self, ray: &Ray) -> (u32, u32) {
+        let Some(pixel) = self.pixel_of(ray) else {
             panic!("{ray:?} is no ray of the raster that was asked for");
         };
+        pixel
+    }
+}
+
+impl<O: PackedObjects> Accel for RasterMaps<O> {
+    fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let (row, col) = self.asked_for(ray);
         RasterMaps::closest(self, row, col)
     }
 
@@ -25,6 +33,16 @@ impl<O: PackedObjects> Accel for RasterMaps<O> {
         for (occluded, hit) in occluded.iter_mut().zip(hits) {
             *occluded = hit.is_some();
         }
+    }
+
+    fn candidates(&self, ray: &Ray, found: &mut Vec<u32>) -> bool {
+        let (row, col) = self.asked_for(ray);
+        self.gather(row, col, found);
+        true
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        accel::all_hits::of(self, &self.objects, ray)
     }
 
     fn footprint(&self) -> Footprint {

@@ -1,6 +1,6 @@
 //! `rayscale trace`
 
-use super::hits::trace;
+use super::hits::{Traced, trace, trace_all};
 use crate::console::Console;
 use crate::error::{Error, check_place};
 use crate::options::{KernelOptions, structures};
@@ -11,9 +11,9 @@ use clap::Args;
 use harness::output::write_whole;
 use harness::units;
 use scenes::SceneSpec;
-use scenes::exchange::{RaysCsvError, read_rays, write_hits};
+use scenes::exchange::{RaysCsvError, read_rays, write_all_hits, write_hits};
 use std::fs::{self, File};
-use std::io::BufReader;
+use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 /// Trace rays of a CSV file and write the nearest hits as CSV
@@ -28,7 +28,9 @@ HITS.csv has a line for each ray, numbered from 0, after a header:
   ray,object,t,u,v
 The object is the triangle's number from 0 in file order, polygons fanned from their first
 corner; u and v are the weights of its second and third corner; all four are empty on a miss.
-Of hits at equal t the lowest object counts. Numbers are in the shortest form that reads back
+Of hits at equal t the lowest object counts. With --all there is a line for each crossing of
+the ray, by t and then by object: all triangles that share an edge are crossed where it is met.
+Numbers are in the shortest form that reads back
 to the same single-precision bits. HITS.csv appears when all of it is there, or not at all.
 
 The ray-triangle test is moller-trumbore unless --kernel says otherwise; foreign structures
@@ -37,7 +39,8 @@ The ray-triangle test is moller-trumbore unless --kernel says otherwise; foreign
 Examples:
   rayscale trace --scene model.obj --rays rays.csv --structure ssm --out hits.csv
   rayscale trace --scene model.obj --rays rays.csv --structure brute --kernel watertight --out hits.csv
-  rayscale trace --scene model.obj --rays rays.csv --structure bmssm --kernel auto --max-error 0.5 --out hits.csv")]
+  rayscale trace --scene model.obj --rays rays.csv --structure bmssm --kernel auto --max-error 0.5 --out hits.csv
+  rayscale trace --scene model.obj --rays rays.csv --structure bmssm --kernel exact --all --out hits.csv")]
 pub struct Trace {
     /// Scene: a mesh, an id or a definition
     #[arg(long, value_name = "FILE.obj")]
@@ -51,6 +54,9 @@ pub struct Trace {
     /// The file to write
     #[arg(long, value_name = "HITS.csv")]
     out: PathBuf,
+    /// Every crossing of each ray in order, not the nearest only
+    #[arg(long)]
+    all: bool,
     #[command(flatten)]
     kernel: KernelOptions,
 }
@@ -63,22 +69,44 @@ impl Verb for Trace {
         let rays = read(&self.rays)?;
         let scene = console.scene(&self.scene)?;
         self.check_reach(&rays, &scene)?;
-        let traced = trace(console, &choice, &scene, &RaySet::List(rays))?;
-        let written = write_whole(&self.out, |out| write_hits(out, &traced.hits));
+        let rays = RaySet::List(rays);
+        if self.all {
+            let traced = trace_all(console, &choice, &scene, &rays)?;
+            let hits = traced.hits.iter().map(Vec::len).sum();
+            self.finish(console, &scene, traced, (hits, "crossings"), |out, hits| write_all_hits(out, hits))
+        } else {
+            let traced = trace(console, &choice, &scene, &rays)?;
+            let hits = traced.hits.iter().flatten().count();
+            self.finish(console, &scene, traced, (hits, "hits"), |out, hits| write_hits(out, hits))
+        }
+    }
+}
+
+impl Trace {
+    /// Writes what was found and says what it took.
+    fn finish<T>(
+        &self,
+        console: &Console,
+        scene: &Scene,
+        traced: Traced<T>,
+        (hits, what): (usize, &str),
+        write: impl Fn(&mut dyn Write, &[T]) -> io::Result<()>,
+    ) -> Result<Outcome, Error> {
+        let written = write_whole(&self.out, |out| write(out, &traced.hits));
         written.map_err(|error| Error::io(self.out.display(), error))?;
-        let (rays, hits) = (traced.hits.len(), traced.hits.iter().flatten().count());
+        let rays = traced.hits.len();
         let (build, trace) = (traced.build.as_nanos() as u64, traced.trace.as_nanos() as u64);
         console.result(
             &serde_json::json!({
-                "scene": scene.id, "structure": choice.spec.to_string(), "kernel": traced.kernel,
+                "scene": scene.id, "structure": traced.structure.to_string(), "kernel": traced.kernel,
                 "kernel_reason": traced.reason,
                 "rays": rays, "hits": hits, "build_ns": build, "trace_ns": trace, "out": self.out.to_string_lossy(),
             }),
             format!(
-                "{} rays, {} hits by {} (built in {}, traced in {}) → {}",
+                "{} rays, {} {what} by {} (built in {}, traced in {}) → {}",
                 units::count(rays as u64),
                 units::count(hits as u64),
-                choice.spec,
+                traced.structure,
                 units::time(build as f64),
                 units::time(trace as f64),
                 self.out.display()
@@ -86,9 +114,7 @@ impl Verb for Trace {
         )?;
         Ok(Outcome::Done)
     }
-}
 
-impl Trace {
     /// No ray may begin farther away than structures are right for.
     fn check_reach(&self, rays: &[Ray], scene: &Scene) -> Result<(), Error> {
         let bounds = scene.geometry.bounds();

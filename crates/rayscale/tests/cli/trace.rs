@@ -44,6 +44,26 @@ fn structures_and_kernels_agree() {
 }
 
 #[test]
+fn all_crossings_are_told_in_order() {
+    let folder = folder();
+    folder.write("rays.csv", "0.5,0.5,-1,0,0,1,0,inf\n9,9,9,0,0,1,0,inf\n");
+    trace(&folder, &["--structure", "brute", "--kernel", "exact", "--all"]).success();
+    let expected = folder.read("hits.csv");
+    let lines: Vec<&str> = expected.lines().collect();
+    assert!(lines.len() > 3, "a ray through a diagonal crosses both halves: {expected}");
+    assert_eq!(lines.last(), Some(&"1,,,,"));
+    let at = |line: &&str| line.split(',').nth(2).map(|t| t.parse::<f32>().expect("t"));
+    assert!(lines[1..lines.len() - 1].iter().map(at).is_sorted());
+    for structure in ["bmssm", "bmssm-dense", "ssm", "ssm-list", "minmax"] {
+        trace(&folder, &["--structure", structure, "--kernel", "exact", "--all"]).success();
+        assert_eq!(folder.read("hits.csv"), expected, "{structure}");
+    }
+    trace(&folder, &["--structure", "obvhs-bvh2", "--all"])
+        .success()
+        .stderr(predicate::str::contains("nearest"));
+}
+
+#[test]
 fn json_says_what_was_done() {
     let folder = folder();
     let out = trace(&folder, &["--structure", "minmax", "--json"]).success().get_output().stdout.clone();

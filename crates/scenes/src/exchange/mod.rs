@@ -3,5 +3,5 @@
 mod hits;
 mod rays;
 
-pub use hits::write_hits;
+pub use hits::{write_all_hits, write_hits};
 pub use rays::{FIELDS, RaysCsvError, read_rays};

@@ -1,5 +1,6 @@
 //! `ssm`: the compact grid.
 
+mod all;
 mod divide;
 mod field;
 mod order;
@@ -131,7 +132,7 @@ struct Built<O: PackedObjects> {
     blocks: O::Blocks,
     /// Whether lists of rays are put in order before they are traced.
     sort: bool,
-    _objects: O,
+    objects: O,
 }
 
 /// Bytes that stay in a core's own caches: a list of rays into more is sorted.
@@ -199,7 +200,7 @@ impl<O: PackedObjects> Built<O> {
         let Laid { grid, field, cells, slots, apart } =
             Laid::new(&objects.shape(), ssm, O::bytes_of_blocks, cancel)?;
         let blocks = objects.blocks(&slots);
-        let mut built = Self { settings, grid, field, cells, apart, blocks, sort: false, _objects: objects };
+        let mut built = Self { settings, grid, field, cells, apart, blocks, sort: false, objects };
         built.sort = built.footprint().total() > CACHED;
         Ok(built)
     }
@@ -220,6 +221,15 @@ impl<O: PackedObjects> Accel for Built<O> {
 
     fn trace_occluded(&self, rays: &RaySet, occluded: &mut [bool]) {
         self.batches::<true, _>(rays, occluded, |nearest| nearest.hit().is_some());
+    }
+
+    fn candidates(&self, ray: &Ray, found: &mut Vec<u32>) -> bool {
+        self.gather(ray, found);
+        true
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        accel::all_hits::of(self, &self.objects, ray)
     }
 
     fn footprint(&self) -> Footprint {

@@ -103,7 +103,8 @@ pub fn rays(scene: &Scene, count: usize) -> RaySet {
 /// Whether all hits are the same, bit by bit; and occlusion the same.
 pub fn compare(scene: &Scene, kernel: KernelId, rays: &RaySet, what: &str, built: &dyn Accel) {
     let mut reference = vec![None; rays.len()];
-    Brute::new(kernel).build(scene, &Workload::GENERAL).unwrap().trace(rays, &mut reference);
+    let brute = Brute::new(kernel).build(scene, &Workload::GENERAL).unwrap();
+    brute.trace(rays, &mut reference);
     let mut hits: Vec<Option<Hit>> = vec![None; rays.len()];
     built.trace(rays, &mut hits);
     let mut occluded = vec![false; rays.len()];
@@ -119,6 +120,13 @@ pub fn compare(scene: &Scene, kernel: KernelId, rays: &RaySet, what: &str, built
         if i % 16 == 0 {
             assert_eq!(built.closest(&ray), *expected, "{what}: alone");
             assert_eq!(built.occluded(&ray), expected.is_some(), "{what}: alone");
+            let all = brute.all_hits(&ray);
+            assert_eq!(
+                all.first().map(|hit| hit.t),
+                expected.map(|hit| hit.t),
+                "{what}: all hits begin with the nearest"
+            );
+            assert_eq!(built.all_hits(&ray), all, "{what}: all hits of {ray:?}");
         }
     }
 }

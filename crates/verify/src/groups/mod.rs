@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn small_groups_pass() {
         let own = ["ssm", "bmssm", "ssm-list", "bmssm-dense"].map(str::to_owned);
-        for pattern in ["geometry/", "rays/inactive", "rays/nan", "builds/cancelled"] {
+        for pattern in ["geometry/", "rays/inactive", "rays/nan", "rays/all-hits", "builds/cancelled"] {
             let asked = run(pattern, &own, |_| ());
             assert!(asked.is_sound() && !asked.rows.is_empty(), "{asked:#?}");
         }

@@ -3,7 +3,8 @@
 use super::group::Group;
 use super::subject::{Subject, Verdict};
 use crate::cases::{self, Reach, Shape};
-use accel::{Ray, Scene, Vec3};
+use accel::{Builder, Ray, Scene, Vec3, Workload};
+use baselines::Brute;
 use lanes::Level;
 use primitives::KernelId;
 use scenes::Random;
@@ -13,6 +14,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group { name: "rays/nan", about: "NaN, infinite and zero rays end and hit nothing", ask: unusable },
     Group { name: "rays/far", about: "origins 2^10 to 2^60 times the scene's size away", ask: far },
     Group { name: "rays/random", about: "random rays through random scenes", ask: random },
+    Group { name: "rays/all-hits", about: "every crossing, in order, and once", ask: all_hits },
     Group {
         name: "rays/instructions",
         about: "every instruction set that the machine has",
@@ -77,6 +79,25 @@ fn random(subject: &Subject) -> Verdict {
         let kernel = if seed % 2 == 0 { KernelId::Exact } else { KernelId::MollerTrumbore };
         verdict.and(subject.holds(&scene, &rays, kernel))
     })
+}
+
+fn all_hits(subject: &Subject) -> Verdict {
+    let mut verdict = Verdict::Passed { checks: 0 };
+    for seed in 30..38 {
+        let (scene, rays) = case(seed, &CLOSE, 512);
+        let kernel = if seed % 2 == 0 { KernelId::Exact } else { KernelId::MollerTrumbore };
+        let built = match subject.build_with(&scene, kernel) {
+            Ok(built) => built,
+            Err(failure) => return Verdict::Wrong { what: failure.to_string() },
+        };
+        if !built.candidates(&rays[0], &mut Vec::new()) {
+            return Verdict::NotAsked { why: "it tells nearest hits only" };
+        }
+        let brute = Brute::new(kernel).build(&scene, &Workload::GENERAL).expect("brute force");
+        let wrong = rays.iter().find_map(|ray| crate::compare::all_hits(&*brute, &*built, ray).err());
+        verdict = verdict.and(Verdict::of(wrong.map_or(Ok(rays.len() as u64), Err)));
+    }
+    verdict
 }
 
 fn instructions(subject: &Subject) -> Verdict {

@@ -95,7 +95,15 @@ impl Subject {
     }
 
     pub(super) fn build<'s>(&self, scene: &'s Scene) -> Result<Box<dyn Accel + 's>, BuildFailure> {
-        guarded_build(&self.choice(KernelId::Exact), scene, &Workload::GENERAL)
+        self.build_with(scene, KernelId::Exact)
+    }
+
+    pub(super) fn build_with<'s>(
+        &self,
+        scene: &'s Scene,
+        kernel: KernelId,
+    ) -> Result<Box<dyn Accel + 's>, BuildFailure> {
+        guarded_build(&self.choice(kernel), scene, &Workload::GENERAL)
     }
 
     /// Holds it to brute force and the oracle on these rays; of a library it is counted how often it is wrong.

@@ -22,11 +22,9 @@
 //! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
 
 mod decide;
-mod expansion;
 mod quotient;
 mod reject;
 mod signs;
-mod triple;
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,6 @@
 //! t without error, as a quotient of two exact sums.
 
-use super::expansion::{Expansion, sign};
-use super::triple::triple;
+use accel::expansion::{Expansion, sign, triple};
 use accel::{Corners, Ray};
 use std::cmp::Ordering;
 

@@ -2,8 +2,7 @@
 //!
 //! Crates of geometric predicates take differences of points only; a ray's direction is none.
 
-use super::expansion::{Expansion, sign, two_product, two_sum};
-use super::triple::{MINORS, triple};
+use accel::expansion::{Expansion, MINORS, sign, triple, two_product, two_sum};
 use accel::{Corners, Ray, Vec3};
 use std::cmp::Ordering;
 

@@ -5,23 +5,24 @@
 //! Geometry 18(3), 1997, §2). It is for numbers whose products neither under- nor overflow: here products of at most
 //! six `f32`, which are multiples of 2^-894 below 2^780.
 
+use crate::Vec3;
 use std::cmp::Ordering;
 
 /// An exact sum of at most `N` values, its parts by ascending size and none zero.
-pub(super) struct Expansion<const N: usize> {
+pub struct Expansion<const N: usize> {
     parts: [f64; N],
     len: usize,
 }
 
 impl<const N: usize> Expansion<N> {
     /// The empty sum.
-    pub(super) const ZERO: Self = Self { parts: [0.0; N], len: 0 };
+    pub const ZERO: Self = Self { parts: [0.0; N], len: 0 };
 
     /// Adds a number (Shewchuk, Grow-Expansion with zero elimination).
     ///
     /// # Panics
     /// If the sum needs more than `N` parts.
-    pub(super) fn add(&mut self, term: f64) {
+    pub fn add(&mut self, term: f64) {
         if term == 0.0 {
             return;
         }
@@ -42,7 +43,10 @@ impl<const N: usize> Expansion<N> {
     }
 
     /// Adds x·y.
-    pub(super) fn add_product(&mut self, x: f64, y: f64) {
+    ///
+    /// # Panics
+    /// If the sum needs more than `N` parts.
+    pub fn add_product(&mut self, x: f64, y: f64) {
         if x == 0.0 || y == 0.0 {
             return;
         }
@@ -52,30 +56,49 @@ impl<const N: usize> Expansion<N> {
     }
 
     /// Adds x·`other`.
-    pub(super) fn add_multiple<const M: usize>(&mut self, x: f64, other: &Expansion<M>) {
+    ///
+    /// # Panics
+    /// If the sum needs more than `N` parts.
+    pub fn add_multiple<const M: usize>(&mut self, x: f64, other: &Expansion<M>) {
         for part in other.parts() {
             self.add_product(x, *part);
         }
     }
 
     /// The parts, by ascending size.
-    pub(super) fn parts(&self) -> &[f64] {
+    pub fn parts(&self) -> &[f64] {
         &self.parts[..self.len]
     }
 
     /// The largest part outweighs the others.
-    pub(super) fn sign(&self) -> Ordering {
+    pub fn sign(&self) -> Ordering {
         self.parts().last().map_or(Ordering::Equal, |part| sign(*part))
     }
 
     /// The sum, off by less than one part in 2^51.
-    pub(super) fn estimate(&self) -> f64 {
+    pub fn estimate(&self) -> f64 {
         self.parts().iter().sum()
     }
 }
 
+/// The axes of the three minors of a triple product, each after that of its factor.
+pub const MINORS: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
+
+/// Adds a·(b×c), each of six products of `f32` in two parts.
+///
+/// # Panics
+/// If the sum needs more than `N` parts.
+pub fn triple<const N: usize>(sum: &mut Expansion<N>, a: Vec3, b: Vec3, c: Vec3) {
+    for [i, j, k] in MINORS {
+        for (x, y, z) in [(a[i], b[j], c[k]), (-a[i], b[k], c[j])] {
+            // The product of two is exact.
+            sum.add_product(f64::from(x), f64::from(y) * f64::from(z));
+        }
+    }
+}
+
 /// How a number compares with zero.
-pub(super) fn sign(value: f64) -> Ordering {
+pub fn sign(value: f64) -> Ordering {
     if value > 0.0 {
         Ordering::Greater
     } else if value < 0.0 {
@@ -87,7 +110,7 @@ pub(super) fn sign(value: f64) -> Ordering {
 
 /// a + b and its rounding error (Knuth).
 #[inline]
-pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))
@@ -95,7 +118,7 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// a·b and its rounding error (Dekker).
 #[inline]
-pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
     (product, a2 * b2 - (((product - a1 * b1) - a2 * b1) - a1 * b2))

@@ -1,0 +1,54 @@
+//! All that a ray may meet, however far away.
+
+use super::{Stack, Waiting, Way, nearest_child};
+use crate::general::General;
+use crate::general::tree::Node;
+use accel::Ray;
+use accel::tolerance::LIMIT_S;
+use lanes::{BLOCK, Blocks, PackedObjects, Simd, Task};
+
+struct Gather<'a, O: PackedObjects> {
+    general: &'a General<O>,
+    ray: &'a Ray,
+    found: &'a mut Vec<u32>,
+}
+
+impl<O: PackedObjects> Task for Gather<'_, O> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) {
+        let Self { general, ray, found } = self;
+        let Some(segment) = general.frame.clip(ray) else { return };
+        if general.nodes.is_empty() {
+            return;
+        }
+        let way = Way::new(&segment);
+        let limit = 1.0 + LIMIT_S as f32;
+        let mut stack = Stack::default();
+        let mut next = Some(Waiting { enter: 0.0, exit: 1.0, what: 0 });
+        while let Some(Waiting { enter, exit, what }) = next {
+            if what & Node::BLOCK == 0 {
+                let child = nearest_child(s, &general.nodes[what as usize], &way, limit, &mut stack);
+                next = if child.is_none() { stack.pop(limit) } else { child };
+                continue;
+            }
+            let block = (what & !Node::BLOCK) as usize;
+            let mut candidates = general.maps[block].candidates(s, way.at(enter), way.at(exit));
+            while candidates != 0 {
+                let slot = block * BLOCK + candidates.trailing_zeros() as usize;
+                candidates &= candidates - 1;
+                // Each object is in one slot of one block.
+                found.push(general.objects.object(slot));
+            }
+            next = stack.pop(limit);
+        }
+    }
+}
+
+impl<O: PackedObjects> General<O> {
+    /// Appends all candidates of a ray.
+    pub fn gather(&self, ray: &Ray, found: &mut Vec<u32>) {
+        self.simd.run(Gather { general: self, ray, found });
+    }
+}
