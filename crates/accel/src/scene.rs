@@ -1,14 +1,11 @@
 //! Scenes: what there is to be hit.
 
 use crate::parallel::prelude::*;
-use crate::{Aabb, Vec3};
+use crate::{Aabb, Corners, Solid, Vec3};
 use glam::Vec3A;
 
 /// Triangles looked at by one task.
 const CHUNK: usize = 1 << 14;
-
-/// The three corners of a triangle.
-pub type Corners = [Vec3; 3];
 
 /// Indexed triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,13 +73,15 @@ impl MeshRef<'_> {
     }
 }
 
-/// The objects of a scene, all of one kind.
+/// The objects of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
     /// Triangles.
     Triangles(Mesh),
     /// Axis-aligned boxes.
     Boxes(Vec<Aabb>),
+    /// Objects of any kinds.
+    Solids(Vec<Solid>),
 }
 
 impl Geometry {
@@ -91,6 +90,7 @@ impl Geometry {
         match self {
             Self::Triangles(mesh) => mesh.triangles.len(),
             Self::Boxes(boxes) => boxes.len(),
+            Self::Solids(solids) => solids.len(),
         }
     }
 
@@ -104,6 +104,7 @@ impl Geometry {
         match self {
             Self::Triangles(mesh) => mesh.bounds(),
             Self::Boxes(boxes) => boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b)),
+            Self::Solids(solids) => solids.iter().fold(Aabb::EMPTY, |all, s| all.union(s.bounds())),
         }
     }
 
@@ -112,6 +113,7 @@ impl Geometry {
         match self {
             Self::Triangles(_) => "triangles",
             Self::Boxes(_) => "boxes",
+            Self::Solids(_) => "solids",
         }
     }
 }

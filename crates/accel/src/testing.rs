@@ -1,6 +1,7 @@
 //! What tests of many crates share: numbers that are the same in every run, and small scenes.
 
-use crate::{Geometry, Mesh, Ray, RaySet, Scene, Vec3, View};
+use crate::solid::{Cone, Disc, Quadric, Sphere, Torus};
+use crate::{Aabb, Geometry, Mesh, Ray, RaySet, Scene, Solid, Vec3, View};
 
 /// Numbers that look random, from a seed.
 #[derive(Clone, Debug)]
@@ -63,4 +64,71 @@ pub fn cloud(triangles: u32, rays: u32) -> (Scene, RaySet) {
     let mut point = |scale: f32| Vec3::new(random(), random(), random()) * scale;
     let rays = (0..rays).map(|i| Ray::new(point(if i % 3 == 0 { 3.0 } else { 1.0 }), point(1.0))).collect();
     (scene(Geometry::Triangles(mesh)), RaySet::List(rays))
+}
+
+/// The kinds of solids that [`solid`] makes.
+pub const KINDS: [&str; 8] = ["triangle", "box", "sphere", "cone", "cylinder", "disc", "quadric", "torus"];
+
+/// A solid of a kind about `center`, of about this size, from numbers in [−1, 1).
+///
+/// # Panics
+/// If there is no such kind.
+pub fn solid(kind: &str, center: Vec3, size: f32, random: &mut impl FnMut() -> f32) -> Solid {
+    let mut positive = || size * (0.6 + 0.4 * random());
+    let (a, b) = (positive(), positive());
+    let mut point = || Vec3::new(random(), random(), random());
+    let (p, q) = (point() * size, point());
+    match kind {
+        "triangle" => Solid::Triangle([center, center + p, center + q * size]),
+        "box" => Solid::Box(Aabb::of_points([center - p.abs(), center + q.abs() * size])),
+        "sphere" => Solid::Sphere(Sphere { center, radius: a }),
+        "cone" => {
+            let top_radius = if a < b { 0.0 } else { b * 0.5 };
+            Solid::Cone(Cone { base: center - p, base_radius: a, top: center + p, top_radius })
+        }
+        "cylinder" => Solid::Cone(Cone { base: center - p, base_radius: a, top: center + p, top_radius: a }),
+        "disc" => Solid::Disc(Disc { center, normal: q, radius: a }),
+        "quadric" => {
+            let half = Vec3::splat(size);
+            let bounds = Aabb { min: center - half, max: center + half };
+            let [x, y, z] = q.to_array();
+            let one = -0.3 * size * size;
+            let (x, y, z, flat) = (x + 1.0, y + 1.0, z, 0.3 * z);
+            let slope = 0.2 * size * z;
+            let coefficients = [x, y, z, flat, 0.1, -flat, slope, 0.0, -slope, one];
+            Solid::Quadric(Quadric { coefficients, bounds })
+        }
+        "torus" => {
+            Solid::Torus(Torus { center, axis: q, major: a, minor: a * 0.1 + a * 0.8 * b / (size * 1.1) })
+        }
+        _ => panic!("no kind `{kind}`"),
+    }
+}
+
+/// So many solids of these kinds in turn, in the cube from −1 to 1, from a seed.
+pub fn solids(seed: u32, kinds: &[&str], count: u32, size: f32) -> Scene {
+    let mut random = random(seed);
+    let one = |i: u32| {
+        let center = Vec3::new(random(), random(), random());
+        solid(kinds[i as usize % kinds.len()], center, size, &mut random)
+    };
+    scene(Geometry::Solids((0..count).map(one).collect()))
+}
+
+/// Rays from around and within the cube from −1 to 1 through it, half of them along an axis or from far away.
+pub fn rays(seed: u32, count: u32) -> Vec<Ray> {
+    let mut random = random(seed);
+    let mut point = |scale: f32| Vec3::new(random(), random(), random()) * scale;
+    let ray = |i: u32| {
+        let target = point(1.0);
+        let origin = match i % 4 {
+            0 => point(1.0),
+            1 => point(3.0),
+            2 => point(40.0),
+            _ => target + Vec3::AXES[i as usize / 4 % 3] * 5.0,
+        };
+        let t_max = if i.is_multiple_of(5) { 1.0 } else { f32::INFINITY };
+        Ray { t_max, ..Ray::new(origin, target - origin) }
+    };
+    (0..count).map(ray).collect()
 }

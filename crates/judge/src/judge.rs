@@ -30,11 +30,11 @@ pub struct Judgement {
 }
 
 impl<'s> Judge<'s> {
-    /// Of a scene; of boxes it knows nothing, and takes every hit of one for a phantom.
+    /// Of a scene; of boxes and solids it knows nothing, and takes every hit of one for a phantom.
     pub fn new(scene: &'s Scene, tolerance: Tolerance) -> Self {
         let mesh = match &scene.geometry {
             Geometry::Triangles(mesh) => MeshRef::from(mesh),
-            Geometry::Boxes(_) => MeshRef { positions: &[], triangles: &[] },
+            Geometry::Boxes(_) | Geometry::Solids(_) => MeshRef { positions: &[], triangles: &[] },
         };
         let bounds = mesh.bounds();
         let extent = if bounds.is_empty() {

@@ -48,7 +48,7 @@ impl Case {
         };
         let boxes = match scene.geometry {
             Geometry::Boxes(boxes) => boxes,
-            Geometry::Triangles(_) => Vec::new(),
+            Geometry::Triangles(_) | Geometry::Solids(_) => Vec::new(),
         };
         let maps = ImageMaps::new(&Boxes::new(&boxes), raster);
         let narrow = [&maps.rows, &maps.cols].map(|axis: &Axis| {

@@ -3,6 +3,7 @@
 use crate::{Boxes, KernelId, TriangleKernel, Triangles, WithKernel};
 use accel::{Geometry, MeshRef, Scene};
 use lanes::PackedObjects;
+use solids::Solids;
 
 /// Code that is generic over the objects of a scene.
 pub trait WithObjects<'s> {
@@ -17,6 +18,7 @@ pub fn with_objects<'s, W: WithObjects<'s>>(scene: &'s Scene, kernel: KernelId, 
     match &scene.geometry {
         Geometry::Triangles(mesh) => with_triangles(mesh.into(), kernel, with),
         Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
+        Geometry::Solids(solids) => with.objects(Solids::new(solids)),
     }
 }
 

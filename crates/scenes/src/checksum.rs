@@ -3,9 +3,9 @@
 use accel::{Geometry, Vec3};
 use sha2::{Digest, Sha256};
 
-/// SHA-256 in hex of the geometry's buffers: the letter T or B, then for triangles the number
+/// SHA-256 in hex of the geometry's buffers: the letter T, B or S, then for triangles the number
 /// of positions, the positions, the number of triangles and their indices, for boxes their
-/// number and corners; counts as u64, coordinates as f32 bits, indices as u32, little-endian.
+/// number and corners, for solids their number and for each the length of its kind's name, the name, and its numbers; counts as u64, coordinates as f32 bits, indices as u32, little-endian.
 pub fn checksum(geometry: &Geometry) -> String {
     let mut hash = Sha256::new();
     match geometry {
@@ -20,6 +20,15 @@ pub fn checksum(geometry: &Geometry) -> String {
         Geometry::Boxes(boxes) => {
             hash.update(b"B");
             points(&mut hash, boxes.len(), boxes.iter().flat_map(|b| [&b.min, &b.max]));
+        }
+        Geometry::Solids(solids) => {
+            hash.update(b"S");
+            hash.update((solids.len() as u64).to_le_bytes());
+            for solid in solids {
+                hash.update((solid.kind().len() as u64).to_le_bytes());
+                hash.update(solid.kind());
+                solid.numbers(&mut |number| hash.update(number.to_le_bytes()));
+            }
         }
     }
     hex(&hash.finalize())

@@ -8,10 +8,17 @@ use std::io::{self, Write};
 /// triangles a box.
 ///
 /// # Errors
-/// Whatever `out` answers.
+/// Whatever `out` answers, and [`io::ErrorKind::Unsupported`] for solids, which OBJ doesn't know.
 pub fn write_obj(scene: &Scene, mut out: impl Write) -> io::Result<()> {
+    if let Geometry::Solids(solids) = &scene.geometry {
+        let kind = solids.first().map_or("solid", accel::Solid::kind);
+        let reason =
+            format!("scene `{}` has objects of the kind `{kind}`, and OBJ knows polygons only", scene.id);
+        return Err(io::Error::new(io::ErrorKind::Unsupported, reason));
+    }
     writeln!(out, "# {}", scene.id.replace(['\n', '\r'], " "))?;
     match &scene.geometry {
+        Geometry::Solids(_) => {}
         Geometry::Triangles(mesh) => {
             mesh.positions.iter().try_for_each(|p| vertex(&mut out, *p))?;
             for t in &mesh.triangles {

@@ -43,6 +43,11 @@ impl Transform {
             return;
         }
         match geometry {
+            Geometry::Solids(solids) => {
+                let scale = libm::ldexp(1.0, self.scale_exponent);
+                let offset = DVec3::from_array(self.offset);
+                solids.iter_mut().for_each(|solid| *solid = solid.moved(scale, offset));
+            }
             Geometry::Triangles(mesh) => mesh.positions.iter_mut().for_each(|p| *p = self.point(*p)),
             Geometry::Boxes(boxes) => {
                 for b in boxes {

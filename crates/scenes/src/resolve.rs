@@ -7,7 +7,7 @@ use crate::modifier::{self, Transform};
 use crate::reader::{self, Polygons};
 use crate::spec::{SceneSpec, Source};
 use crate::{catalog, view};
-use accel::{Geometry, Mesh, Scene, Vec3};
+use accel::{Geometry, Mesh, Scene, Solid, Vec3};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -201,6 +201,10 @@ fn largest(geometry: &Geometry) -> f32 {
     match geometry {
         Geometry::Triangles(mesh) => mesh.positions.iter().map(most).fold(0.0, f32::max),
         Geometry::Boxes(boxes) => boxes.iter().map(|b| most(&b.min).max(most(&b.max))).fold(0.0, f32::max),
+        Geometry::Solids(_) => {
+            let b = geometry.bounds();
+            if b.is_empty() { 0.0 } else { most(&b.min).max(most(&b.max)) }
+        }
     }
 }
 
@@ -213,6 +217,10 @@ fn not_finite(geometry: &Geometry) -> Option<(u64, f32)> {
     match geometry {
         Geometry::Triangles(mesh) => find(Box::new(mesh.positions.iter())),
         Geometry::Boxes(boxes) => find(Box::new(boxes.iter().flat_map(|b| [&b.min, &b.max]))),
+        Geometry::Solids(solids) => {
+            let bounds: Vec<Vec3> = solids.iter().map(Solid::bounds).flat_map(|b| [b.min, b.max]).collect();
+            find(Box::new(bounds.iter()))
+        }
     }
 }
 

@@ -13,7 +13,7 @@ fn get(name: &str) -> Result<Scene, SceneError> {
 fn mesh(scene: &Scene) -> &Mesh {
     match &scene.geometry {
         Geometry::Triangles(mesh) => mesh,
-        Geometry::Boxes(_) => panic!("{} is made of boxes", scene.id),
+        other => panic!("{} is made of {}", scene.id, other.kind()),
     }
 }
 

@@ -194,7 +194,7 @@ fn generated(id: &str, sets: &[RaysId], rays: usize, seed: u64) -> Option<Case> 
 fn mesh(scene: &Scene) -> &Mesh {
     match &scene.geometry {
         Geometry::Triangles(mesh) => mesh,
-        Geometry::Boxes(_) => unreachable!("extremes are of triangles"),
+        Geometry::Boxes(_) | Geometry::Solids(_) => unreachable!("extremes are of triangles"),
     }
 }
 

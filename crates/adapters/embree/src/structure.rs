@@ -126,7 +126,7 @@ impl Builder for EmbreeBuilder {
 
     fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         let Geometry::Triangles(mesh) = &scene.geometry else {
-            return Err(self.unsupported("boxes: Embree has triangles"));
+            return Err(self.unsupported(&format!("{}: Embree has triangles", scene.geometry.kind())));
         };
         let settings = SceneSettings {
             quality: self.quality,

@@ -33,7 +33,7 @@ impl Builder for WrapperBuilder {
 
     fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         let Geometry::Triangles(mesh) = &scene.geometry else {
-            let what = "boxes: Embree has triangles".to_owned();
+            let what = format!("{}: Embree has triangles", scene.geometry.kind());
             return Err(BuildError::Unsupported { structure: ID.to_owned(), what });
         };
         // The crate passes indices on unchecked.

@@ -1,11 +1,10 @@
 //! What hangs on a tree's leaves.
 
-use accel::{Mesh, Objects, vec_bytes};
+use accel::{Mesh, Objects, Surface, vec_bytes};
 use obvhs::aabb::Aabb;
 use obvhs::ray::Ray;
 use obvhs::rt_triangle::{RtCompressedTriangle, RtTriangle};
 use obvhs::triangle::Triangle;
-use primitives::Boxes;
 
 /// Objects in the order of a tree's leaves.
 pub trait Leaves: Send + Sync {
@@ -99,43 +98,48 @@ impl<T: Packed> Leaves for TriangleLeaves<T> {
     }
 }
 
-/// The padded boxes of boxes, as obvhs' builders take them.
-pub fn bounds_of(boxes: &Boxes<'_>) -> Vec<Aabb> {
+/// The padded boxes of objects, as obvhs' builders take them.
+pub fn bounds_of(objects: &impl Objects) -> Vec<Aabb> {
     let bounds = |id| {
-        let bounds = boxes.bounds(id);
+        let bounds = objects.bounds(id);
         Aabb { min: bounds.min.into(), max: bounds.max.into() }
     };
-    (0..boxes.len() as u32).map(bounds).collect()
+    (0..objects.len() as u32).map(bounds).collect()
 }
 
-/// Boxes, tested where they lie in the scene.
-pub struct BoxLeaves<'s> {
-    boxes: Boxes<'s>,
+/// Objects, tested where they lie in the scene.
+pub struct ObjectLeaves<O> {
+    objects: O,
     order: Vec<u32>,
 }
 
-impl<'s> BoxLeaves<'s> {
-    /// Slot i holds box `order[i]`.
-    pub fn new(boxes: Boxes<'s>, order: &[u32]) -> Self {
-        Self { boxes, order: order.to_vec() }
+impl<O: Objects> ObjectLeaves<O> {
+    /// Slot i holds object `order[i]`.
+    pub fn new(objects: O, order: &[u32]) -> Self {
+        Self { objects, order: order.to_vec() }
     }
-}
 
-impl Leaves for BoxLeaves<'_> {
     #[inline(always)]
-    fn hit(&self, slot: usize, ray: &Ray) -> f32 {
+    fn surface_of(&self, slot: usize, ray: &Ray) -> Option<Surface> {
         let own = accel::Ray {
             origin: ray.origin.into(),
             direction: ray.direction.into(),
             t_min: ray.tmin,
             t_max: ray.tmax,
         };
-        self.boxes.intersect(self.order[slot], &own, ray.tmax).map_or(f32::INFINITY, |surface| surface.t)
+        self.objects.intersect(self.order[slot], &own, ray.tmax)
+    }
+}
+
+impl<O: Objects> Leaves for ObjectLeaves<O> {
+    #[inline(always)]
+    fn hit(&self, slot: usize, ray: &Ray) -> f32 {
+        self.surface_of(slot, ray).map_or(f32::INFINITY, |surface| surface.t)
     }
 
     #[inline(always)]
-    fn surface(&self, _: usize, _: &Ray) -> (f32, f32) {
-        (0.0, 0.0)
+    fn surface(&self, slot: usize, ray: &Ray) -> (f32, f32) {
+        self.surface_of(slot, ray).map_or((0.0, 0.0), |surface| (surface.u, surface.v))
     }
 
     fn bytes(&self) -> usize {

@@ -2,14 +2,15 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Ray, Scene, Workload};
+use accel::{Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Objects, Ray, Scene, Workload};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::cwbvh::CwBvh;
 use obvhs::rt_triangle::{RtCompressedTriangle, RtTriangle};
 use primitives::Boxes;
+use solids::Solids;
 
-use crate::leaves::{BoxLeaves, Leaves, Packed, TriangleLeaves, bounds_of, triangles_of};
+use crate::leaves::{Leaves, ObjectLeaves, Packed, TriangleLeaves, bounds_of, triangles_of};
 use crate::tree::Tree;
 
 /// Which of obvhs' trees.
@@ -152,14 +153,20 @@ impl ObvhsBuilder {
                 over_triangles::<T, RtCompressedTriangle>(mesh, parameters)
             }
             Geometry::Triangles(mesh) => over_triangles::<T, RtTriangle>(mesh, parameters),
-            Geometry::Boxes(boxes) => {
-                let boxes = Boxes::new(boxes);
-                let tree = T::of_boxes(&bounds_of(&boxes), parameters);
-                let leaves = BoxLeaves::new(boxes, tree.order());
-                Box::new(Built { tree, leaves })
-            }
+            Geometry::Boxes(boxes) => over_objects::<T, _>(Boxes::new(boxes), parameters),
+            Geometry::Solids(solids) => over_objects::<T, _>(Solids::new(solids), parameters),
         }
     }
+}
+
+/// A tree over the boxes of objects of any kind, which it asks through a closure.
+fn over_objects<'s, T: Tree + 's, O: Objects + 's>(
+    objects: O,
+    parameters: BvhBuildParams,
+) -> Box<dyn Accel + 's> {
+    let tree = T::of_boxes(&bounds_of(&objects), parameters);
+    let leaves = ObjectLeaves::new(objects, tree.order());
+    Box::new(Built { tree, leaves })
 }
 
 fn over_triangles<'s, T: Tree + 's, P: Packed + 's>(

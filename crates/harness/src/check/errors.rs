@@ -6,11 +6,11 @@ use judge::{Judge, Tally, TrueHit};
 use oracle::{Oracle, Verdict, classify};
 use rayon::prelude::*;
 
-/// The oracle of a scene's triangles; of boxes it knows nothing.
+/// The oracle of a scene's triangles; of boxes and solids it knows nothing.
 pub fn oracle_of(scene: &Scene) -> Oracle {
     match &scene.geometry {
         Geometry::Triangles(mesh) => Oracle::new((0..mesh.triangles.len()).map(|i| mesh.corners(i))),
-        Geometry::Boxes(_) => Oracle::new([]),
+        Geometry::Boxes(_) | Geometry::Solids(_) => Oracle::new([]),
     }
 }
 

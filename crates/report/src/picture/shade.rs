@@ -52,6 +52,10 @@ fn normal(geometry: &Geometry, ray: &Ray, hit: &Hit) -> Vec3 {
             let face = from_center.abs().max_position();
             Vec3::AXES[face] * from_center[face].signum()
         }
+        Geometry::Solids(solids) => {
+            let point = ray.origin.as_dvec3() + ray.direction.as_dvec3() * f64::from(hit.t);
+            solids[hit.object as usize].normal(point).map_or(Vec3::ZERO, |normal| normal.as_vec3())
+        }
     };
     let back = -unit(ray.direction);
     let normal = if normal == Vec3::ZERO { back } else { normal };

@@ -1,25 +1,28 @@
 //! Objects as corners, edges and faces, whatever they are.
 
 use crate::random::Random;
-use accel::{Geometry, Vec3};
+use accel::{Aabb, Geometry, Vec3};
 use glam::DVec3;
 
-/// A face of object `object`: a triangle's corners, or those of one of a box's faces.
+/// A face of object `object`: a triangle's corners, or those of one of the faces of a box, its own or the one about it.
 pub fn face(geometry: &Geometry, random: &mut Random, object: usize) -> Vec<Vec3> {
     match geometry {
         Geometry::Triangles(mesh) => mesh.corners(object).to_vec(),
-        Geometry::Boxes(boxes) => {
-            let (b, axis) = (boxes[object], random.below(3));
-            let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-            let base = if random.below(2) == 0 { b.min } else { b.max };
-            let corner = |u: Vec3, v: Vec3| {
-                let mut p = base;
-                (p[x], p[y]) = (u[x], v[y]);
-                p
-            };
-            vec![corner(b.min, b.min), corner(b.max, b.min), corner(b.max, b.max), corner(b.min, b.max)]
-        }
+        Geometry::Boxes(boxes) => face_of_box(&boxes[object], random),
+        Geometry::Solids(solids) => face_of_box(&solids[object].bounds(), random),
     }
+}
+
+fn face_of_box(b: &Aabb, random: &mut Random) -> Vec<Vec3> {
+    let axis = random.below(3);
+    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+    let base = if random.below(2) == 0 { b.min } else { b.max };
+    let corner = |u: Vec3, v: Vec3| {
+        let mut p = base;
+        (p[x], p[y]) = (u[x], v[y]);
+        p
+    };
+    vec![corner(b.min, b.min), corner(b.max, b.min), corner(b.max, b.max), corner(b.min, b.max)]
 }
 
 /// A face of a random object. The scene must have one.

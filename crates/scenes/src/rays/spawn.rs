@@ -39,6 +39,7 @@ fn start(geometry: &Geometry, ray: &Ray, hit: &Hit) -> Start {
     let object = hit.object as usize;
     let normal = match geometry {
         Geometry::Triangles(mesh) => super::features::normal(&mesh.corners(object)),
+        Geometry::Solids(solids) => solids[object].normal(point),
         Geometry::Boxes(boxes) => {
             let (min, max) = (boxes[object].min.as_dvec3(), boxes[object].max.as_dvec3());
             let gap = (point - min).abs().min((point - max).abs());

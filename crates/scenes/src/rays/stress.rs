@@ -103,6 +103,10 @@ fn inside(geometry: &Geometry, random: &mut Random) -> Ray {
             let b = boxes[object];
             b.min + (b.max - b.min) * random.in_cube(0.0, 1.0).as_vec3()
         }
+        (Geometry::Solids(solids), 0) => {
+            let b = solids[object].bounds();
+            b.min + (b.max - b.min) * random.in_cube(0.0, 1.0).as_vec3()
+        }
         (_, 0) => {
             let (low, high) = face.iter().fold((face[0], face[0]), |(l, h), p| (l.min(*p), h.max(*p)));
             low + (high - low) * random.in_cube(0.0, 1.0).as_vec3()

@@ -52,6 +52,9 @@ pub fn boxes(count: usize, size: f32) -> Scene {
 /// The scene scaled and moved.
 pub fn moved(mut scene: Scene, scale: f32, by: Vec3) -> Scene {
     match &mut scene.geometry {
+        Geometry::Solids(solids) => {
+            solids.iter_mut().for_each(|s| *s = s.moved(f64::from(scale), by.as_dvec3()));
+        }
         Geometry::Triangles(mesh) => mesh.positions.iter_mut().for_each(|p| *p = *p * scale + by),
         Geometry::Boxes(boxes) => boxes.iter_mut().for_each(|b| {
             *b = Aabb { min: b.min * scale + by, max: b.max * scale + by };

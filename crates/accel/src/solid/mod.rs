@@ -1,0 +1,155 @@
+//! Objects that are solids rather than facets: what they are, without any test of a ray.
+//!
+//! Skala's scene "consists of all kinds of objects, like polyhedrons, solids given by implicit functions, parametrically
+//! defined patches, CSG trees etc." (1993, §1). A kind is a file here with its data, its box, its normal and what it may
+//! look like, and a file of the crate `solids` with its crossings.
+
+mod block;
+mod cone;
+mod disc;
+mod error;
+mod quadric;
+mod sphere;
+mod torus;
+mod triangle;
+
+pub use cone::Cone;
+pub use disc::Disc;
+pub use error::SolidError;
+pub use quadric::Quadric;
+pub use sphere::Sphere;
+pub use torus::Torus;
+
+use crate::{Aabb, Corners, Vec3};
+use glam::DVec3;
+
+/// An object of any kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// A triangle, seen from both sides; its front is where its corners run counter-clockwise.
+    Triangle(Corners),
+    /// A box along the axes.
+    Box(Aabb),
+    /// A ball.
+    Sphere(Sphere),
+    /// A cone, cut off and capped, or a cylinder.
+    Cone(Cone),
+    /// A flat disc, seen from both sides.
+    Disc(Disc),
+    /// The inside of a quadric within a box.
+    Quadric(Quadric),
+    /// A ring of circular section.
+    Torus(Torus),
+}
+
+/// What is asked of every kind. Places are in `f64`: a point of a surface that is rounded to `f32` lies beside it.
+pub trait Shape {
+    /// The kind's name in scene files.
+    const KIND: &'static str;
+
+    /// The smallest box about it, or one that is little larger; coordinates are rounded outward.
+    fn bounds(&self) -> Aabb;
+
+    /// The outward unit normal at a point of the surface, or of the nearest place on it; `None` where there is none.
+    fn normal(&self, point: DVec3) -> Option<DVec3>;
+
+    /// Itself under `p ↦ scale·p + offset`, each number being rounded once.
+    #[must_use]
+    fn moved(&self, scale: f64, offset: DVec3) -> Self;
+
+    /// Every number that it is made of, in order: for checksums.
+    fn numbers(&self, see: &mut dyn FnMut(f32));
+
+    /// Whether it can be traced.
+    ///
+    /// # Errors
+    /// Names the field and what is wrong with it.
+    fn validate(&self) -> Result<(), SolidError>;
+}
+
+/// Calls a method of [`Shape`] for whatever kind there is.
+macro_rules! of_kind {
+    ($solid:expr, $shape:ident => $does:expr) => {
+        match $solid {
+            Solid::Triangle($shape) => $does,
+            Solid::Box($shape) => $does,
+            Solid::Sphere($shape) => $does,
+            Solid::Cone($shape) => $does,
+            Solid::Disc($shape) => $does,
+            Solid::Quadric($shape) => $does,
+            Solid::Torus($shape) => $does,
+        }
+    };
+}
+
+impl Solid {
+    /// [`Shape::KIND`]
+    pub fn kind(&self) -> &'static str {
+        fn of<S: Shape>(_: &S) -> &'static str {
+            S::KIND
+        }
+        of_kind!(self, shape => of(shape))
+    }
+
+    /// [`Shape::bounds`]
+    pub fn bounds(&self) -> Aabb {
+        of_kind!(self, shape => shape.bounds())
+    }
+
+    /// [`Shape::normal`]
+    pub fn normal(&self, point: DVec3) -> Option<DVec3> {
+        of_kind!(self, shape => shape.normal(point))
+    }
+
+    /// [`Shape::moved`]
+    #[must_use]
+    pub fn moved(&self, scale: f64, offset: DVec3) -> Self {
+        match self {
+            Self::Triangle(shape) => Self::Triangle(shape.moved(scale, offset)),
+            Self::Box(shape) => Self::Box(shape.moved(scale, offset)),
+            Self::Sphere(shape) => Self::Sphere(shape.moved(scale, offset)),
+            Self::Cone(shape) => Self::Cone(shape.moved(scale, offset)),
+            Self::Disc(shape) => Self::Disc(shape.moved(scale, offset)),
+            Self::Quadric(shape) => Self::Quadric(shape.moved(scale, offset)),
+            Self::Torus(shape) => Self::Torus(shape.moved(scale, offset)),
+        }
+    }
+
+    /// [`Shape::numbers`]
+    pub fn numbers(&self, see: &mut dyn FnMut(f32)) {
+        of_kind!(self, shape => shape.numbers(see));
+    }
+
+    /// [`Shape::validate`]
+    ///
+    /// # Errors
+    /// Names the field and what is wrong with it.
+    pub fn validate(&self) -> Result<(), SolidError> {
+        of_kind!(self, shape => shape.validate())
+    }
+}
+
+/// `p ↦ scale·p + offset`
+fn placed(p: Vec3, scale: f64, offset: DVec3) -> Vec3 {
+    (p.as_dvec3() * scale + offset).as_vec3()
+}
+
+fn scaled(length: f32, scale: f64) -> f32 {
+    (f64::from(length) * scale) as f32
+}
+
+/// The box between two points in `f64`, rounded outward.
+fn outward(min: DVec3, max: DVec3) -> Aabb {
+    Aabb { min: min.as_vec3(), max: max.as_vec3() }.padded(0.0)
+}
+
+/// How far a disc of radius 1 with this unit normal reaches along each axis.
+fn reach(normal: DVec3) -> DVec3 {
+    let [x, y, z] = normal.to_array();
+    DVec3::new((y * y + z * z).sqrt(), (x * x + z * z).sqrt(), (x * x + y * y).sqrt())
+}
+
+/// A vector of any length made one of length 1, without overflow.
+fn unit(v: Vec3) -> Option<DVec3> {
+    v.as_dvec3().try_normalize()
+}
