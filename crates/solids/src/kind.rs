@@ -14,6 +14,10 @@ macro_rules! of_kind {
             Solid::Disc($shape) => $does,
             Solid::Quadric($shape) => $does,
             Solid::Torus($shape) => $does,
+            Solid::Implicit($shape) => $does,
+            Solid::Patch($shape) => $does,
+            Solid::Facets($shape) => $does,
+            Solid::Csg($shape) => $does,
         }
     };
 }

@@ -7,10 +7,15 @@
 mod block;
 mod cone;
 mod crossing;
+mod csg;
 mod disc;
+mod facets;
+mod implicit;
+mod interval;
 mod kind;
 mod local;
 mod objects;
+mod patch;
 mod polynomial;
 mod quadratic;
 mod quadric;

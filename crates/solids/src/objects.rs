@@ -2,7 +2,7 @@
 
 use crate::{Crossing, Crossings};
 use accel::tolerance::{holds, pad_of};
-use accel::{Aabb, Objects, Ray, Solid, Surface};
+use accel::{Aabb, Hit, Objects, Ray, Solid, Surface};
 use lanes::{OneByOne, PackedObjects};
 
 /// The solids of a scene, of any kinds.
@@ -47,6 +47,13 @@ impl Objects for Solids<'_> {
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         let hit = self.solids[id as usize].nearest(ray, t_max)?;
         holds(&self.bounds(id), ray, hit.t).then_some(hit)
+    }
+
+    fn crossings(&self, id: u32, ray: &Ray, found: &mut Vec<Hit>) {
+        let mut all = Vec::new();
+        Self::crossings(self, id, ray, &mut all);
+        let hit = |Surface { t, u, v }| Hit { t, object: id, u, v };
+        found.extend(all.iter().map(|crossing| hit(crossing.surface())));
     }
 }
 

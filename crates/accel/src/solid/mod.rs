@@ -4,18 +4,29 @@
 //! defined patches, CSG trees etc." (1993, §1). A kind is a file here with its data, its box, its normal and what it may
 //! look like, and a file of the crate `solids` with its crossings.
 
+mod away;
 mod block;
 mod cone;
+mod csg;
 mod disc;
 mod error;
+mod expression;
+mod facets;
+mod implicit;
+mod patch;
 mod quadric;
 mod sphere;
 mod torus;
 mod triangle;
 
 pub use cone::Cone;
+pub use csg::{Combination, Csg};
 pub use disc::Disc;
 pub use error::SolidError;
+pub use expression::{Arithmetic, Expression, Gradient, ParseError};
+pub use facets::Facets;
+pub use implicit::Implicit;
+pub use patch::{Net, Patch};
 pub use quadric::Quadric;
 pub use sphere::Sphere;
 pub use torus::Torus;
@@ -40,6 +51,14 @@ pub enum Solid {
     Quadric(Quadric),
     /// A ring of circular section.
     Torus(Torus),
+    /// Where F(x, y, z) < 0 within a box.
+    Implicit(Implicit),
+    /// A bicubic Bézier patch, seen from both sides.
+    Patch(Patch),
+    /// A closed mesh as one object.
+    Facets(Facets),
+    /// Closed solids combined.
+    Csg(Csg),
 }
 
 /// What is asked of every kind. Places are in `f64`: a point of a surface that is rounded to `f32` lies beside it.
@@ -78,6 +97,10 @@ macro_rules! of_kind {
             Solid::Disc($shape) => $does,
             Solid::Quadric($shape) => $does,
             Solid::Torus($shape) => $does,
+            Solid::Implicit($shape) => $does,
+            Solid::Patch($shape) => $does,
+            Solid::Facets($shape) => $does,
+            Solid::Csg($shape) => $does,
         }
     };
 }
@@ -112,6 +135,10 @@ impl Solid {
             Self::Disc(shape) => Self::Disc(shape.moved(scale, offset)),
             Self::Quadric(shape) => Self::Quadric(shape.moved(scale, offset)),
             Self::Torus(shape) => Self::Torus(shape.moved(scale, offset)),
+            Self::Implicit(shape) => Self::Implicit(shape.moved(scale, offset)),
+            Self::Patch(shape) => Self::Patch(shape.moved(scale, offset)),
+            Self::Facets(shape) => Self::Facets(shape.moved(scale, offset)),
+            Self::Csg(shape) => Self::Csg(shape.moved(scale, offset)),
         }
     }
 
