@@ -6,21 +6,25 @@ mod beams;
 mod item;
 mod maps;
 mod order;
+mod paths;
 mod ready;
+mod scratch;
 mod split;
 mod stream;
+mod test;
 mod trace;
 mod traveller;
 mod tree;
 mod unit_box;
+mod visit;
 
 use accel::grid::Grid;
-use accel::{Count, Footprint, Hit, Nearest, NoCount, Ray, vec_bytes};
+use accel::{Counters, Footprint, Hit, Nearest, Ray, vec_bytes};
 use item::{Item, Scene};
-use lanes::{Blocks, Level, PackedObjects, Portable, Simd, Task};
+use lanes::{Blocks, Level, PackedObjects, Simd, Task};
 use maps::BlockMaps;
 use order::Order;
-use ready::Room;
+use scratch::Scratch;
 use split::Shape;
 use trace::Stack;
 use tree::Node;
@@ -103,18 +107,30 @@ impl<O: PackedObjects> General<O> {
 
     /// The nearest hit of each ray.
     pub fn closest(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        if let ([ray], [hit]) = (rays, &mut *hits) {
+            *hit = self.simd.run(Single::<O, false> { general: self, ray });
+            return;
+        }
         self.simd.run(Closest { general: self, rays, hits });
     }
 
     /// Whether each ray hits anything.
     pub fn occluded(&self, rays: &[Ray], occluded: &mut [bool]) {
+        if let ([ray], [occluded]) = (rays, &mut *occluded) {
+            *occluded = self.simd.run(Single::<O, true> { general: self, ray }).is_some();
+            return;
+        }
         self.simd.run(Occluded { general: self, rays, occluded });
     }
 
     /// Steps that the rays take.
-    pub fn count<C: Count>(&self, rays: &[Ray], occlusion: bool) -> C {
-        // The same steps at every level: one is enough.
-        Counted { general: self, rays, occlusion, count: C::default() }.run(Portable)
+    pub fn count(&self, rays: &[Ray], occlusion: bool) -> Counters {
+        // The same steps whatever is compiled: one set is enough.
+        if occlusion {
+            Level::Portable.run(Occluded { general: self, rays, occluded: &mut vec![false; rays.len()] })
+        } else {
+            Level::Portable.run(Closest { general: self, rays, hits: &mut vec![None; rays.len()] })
+        }
     }
 
     /// Bytes held.
@@ -142,21 +158,17 @@ struct Closest<'a, O: PackedObjects> {
 }
 
 impl<O: PackedObjects> Task for Closest<'_, O> {
-    type Out = ();
+    type Out = Counters;
     #[inline(always)]
-    fn run<S: Simd>(self, s: S) {
-        if let ([ray], [hit]) = (self.rays, &mut *self.hits) {
-            let mut stack = Stack::default();
-            *hit = self.general.nearest::<S, NoCount, false>(s, ray, &mut stack, &mut NoCount).hit();
-            return;
-        }
-        let (mut room, stream) = (Room::default(), self.general.stream_len());
+    fn run<S: Simd>(self, s: S) -> Counters {
+        let (mut scratch, stream) = (Scratch::default(), self.general.stream_len());
         for (rays, hits) in self.rays.chunks(stream).zip(self.hits.chunks_mut(stream)) {
-            self.general.stream::<S, NoCount, false>(s, rays, &mut room, &mut NoCount);
-            for (hit, best) in hits.iter_mut().zip(&room.best) {
+            self.general.stream::<S, false>(s, rays, &mut scratch);
+            for (hit, best) in hits.iter_mut().zip(&scratch.best) {
                 *hit = best.hit();
             }
         }
+        scratch.steps
     }
 }
 
@@ -167,45 +179,31 @@ struct Occluded<'a, O: PackedObjects> {
 }
 
 impl<O: PackedObjects> Task for Occluded<'_, O> {
-    type Out = ();
+    type Out = Counters;
     #[inline(always)]
-    fn run<S: Simd>(self, s: S) {
-        if let ([ray], [occluded]) = (self.rays, &mut *self.occluded) {
-            let mut stack = Stack::default();
-            *occluded =
-                self.general.nearest::<S, NoCount, true>(s, ray, &mut stack, &mut NoCount).hit().is_some();
-            return;
-        }
-        let (mut room, stream) = (Room::default(), self.general.stream_len());
+    fn run<S: Simd>(self, s: S) -> Counters {
+        let (mut scratch, stream) = (Scratch::default(), self.general.stream_len());
         for (rays, occluded) in self.rays.chunks(stream).zip(self.occluded.chunks_mut(stream)) {
-            self.general.stream::<S, NoCount, true>(s, rays, &mut room, &mut NoCount);
-            for (occluded, best) in occluded.iter_mut().zip(&room.best) {
+            self.general.stream::<S, true>(s, rays, &mut scratch);
+            for (occluded, best) in occluded.iter_mut().zip(&scratch.best) {
                 *occluded = best.object != Nearest::NONE;
             }
         }
+        scratch.steps
     }
 }
 
-struct Counted<'a, O: PackedObjects, C> {
+/// The nearest hit of one ray, or for `ANY` some hit.
+struct Single<'a, O: PackedObjects, const ANY: bool> {
     general: &'a General<O>,
-    rays: &'a [Ray],
-    occlusion: bool,
-    count: C,
+    ray: &'a Ray,
 }
 
-impl<O: PackedObjects, C: Count> Task for Counted<'_, O, C> {
-    type Out = C;
+impl<O: PackedObjects, const ANY: bool> Task for Single<'_, O, ANY> {
+    type Out = Option<Hit>;
     #[inline(always)]
-    fn run<S: Simd>(mut self, s: S) -> C {
-        let mut room = Room::default();
-        for rays in self.rays.chunks(self.general.stream_len()) {
-            if self.occlusion {
-                self.general.stream::<S, C, true>(s, rays, &mut room, &mut self.count);
-            } else {
-                self.general.stream::<S, C, false>(s, rays, &mut room, &mut self.count);
-            }
-        }
-        self.count
+    fn run<S: Simd>(self, s: S) -> Option<Hit> {
+        self.general.nearest::<S, ANY>(s, self.ray, &mut Stack::default()).hit()
     }
 }
 

@@ -1,80 +1,35 @@
 //! Rays made ready to be taken through the levels together.
 
-use super::General;
 use super::beam::{Beam, BeamRays};
+use super::scratch::{STREAM, Scratch};
 use super::traveller::{Traveller, WayRows};
-use accel::grid::{RayRows, Span};
+use accel::grid::{Grid, RayRows, Span};
 use accel::{Nearest, Ray};
 use lanes::packet::Packet;
-use lanes::{Blocks, PackedObjects, ROW, SHARE, Simd};
-
-/// Rays of a stream at most: as many as short numbers tell apart.
-pub(super) const STREAM: usize = 1 << 16;
-
-/// Rays that wait to visit a node or a block.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Waiting {
-    /// As in [`Node::children`].
-    pub(super) what: u32,
-    /// Where their numbers begin in the lists, and how many they are.
-    pub(super) first: u32,
-    pub(super) len: u32,
-    /// Up to where the lists are in use.
-    pub(super) top: u32,
-}
-
-/// Pairs of all rays of a packet and all objects of a block, and as many again to be written at once.
-pub(super) const PAIRS: usize = (ROW + 1) * lanes::BLOCK;
-
-/// What a thread keeps from stream to stream; only the first places, one for each ray of the stream, mean something.
-pub(super) struct Room<One> {
-    pub(super) travellers: Vec<Traveller>,
-    pub(super) spans: Vec<Span>,
-    pub(super) ones: Vec<One>,
-    pub(super) best: Vec<Nearest>,
-    /// Those of neighbours that are taken together.
-    pub(super) beams: Vec<Beam>,
-    pub(super) beam_rays: Vec<BeamRays>,
-    /// Lists of rays, or of beams, by number.
-    pub(super) lists: Vec<u16>,
-    pub(super) stack: Vec<Waiting>,
-    /// Places of rays in a packet, and of candidates in a block.
-    pub(super) pair_rays: Vec<u8>,
-    pub(super) pair_slots: Vec<u8>,
-}
-
-impl<One> Default for Room<One> {
-    fn default() -> Self {
-        Self {
-            travellers: Vec::new(),
-            spans: Vec::new(),
-            beams: Vec::new(),
-            beam_rays: Vec::new(),
-            ones: Vec::new(),
-            best: Vec::new(),
-            lists: Vec::new(),
-            stack: Vec::new(),
-            pair_rays: vec![0; PAIRS],
-            pair_slots: vec![0; PAIRS],
-        }
-    }
-}
+use lanes::{ROW, SHARE, Simd, Task};
 
 /// Octants of directions.
 pub(super) const OCTANTS: usize = 8;
 
-impl<O: PackedObjects> General<O> {
-    /// Prepares the rays, and lists those that meet the scene by octant, one by one or in beams. Lists of single rays are
-    /// `stride` apart, those of beams follow.
+/// Prepares rays, and lists those that meet the scene by octant, one by one or in beams. Lists of single rays are
+/// as far apart as there is room for all rays, those of beams follow.
+pub(super) struct Begin<'a> {
+    /// One cell over the scene.
+    pub frame: &'a Grid,
+    /// How far from each other rays of a beam may begin or end, in unit coordinates.
+    pub spread: f32,
+    pub rays: &'a [Ray],
+    pub scratch: &'a mut Scratch,
+}
+
+impl Task for Begin<'_> {
+    type Out = Begun;
+
     #[inline(always)]
-    pub(super) fn begin<S: Simd>(
-        &self,
-        s: S,
-        rays: &[Ray],
-        room: &mut Room<<O::Blocks as Blocks>::One>,
-    ) -> Begun {
+    fn run<S: Simd>(self, s: S) -> Begun {
+        let Self { frame, spread, rays, scratch } = self;
         assert!(rays.len() <= STREAM, "no more rays than a stream holds");
-        let Room { travellers, spans, ones, best, lists, beams, beam_rays, .. } = room;
+        let Scratch { travellers, spans, best, lists, beams, beam_rays, .. } = scratch;
         let all = rays.len().next_multiple_of(SHARE);
         let stride = all + SHARE;
         if travellers.len() < all {
@@ -85,7 +40,6 @@ impl<O: PackedObjects> General<O> {
         if lists.len() < ROW * stride {
             lists.resize(ROW * stride, 0);
         }
-        ones.clear();
         beams.clear();
         beam_rays.clear();
         let mut lens = [0; ROW];
@@ -94,13 +48,10 @@ impl<O: PackedObjects> General<O> {
             for (row, rays) in rays.chunks(ROW).enumerate() {
                 let first = share * SHARE + row * ROW;
                 let rows = rows(s, rays);
-                let segments = self.frame.clip_rows(&rows);
+                let segments = frame.clip_rows(&rows);
                 let ways = WayRows::of(s, &rows, &segments);
                 let mut on = 0;
-                for (lane, ray) in rays.iter().enumerate() {
-                    if !O::Blocks::takes_pairs::<S>() {
-                        ones.push(self.objects.one(ray));
-                    }
+                for lane in 0..rays.len() {
                     // Those that miss the scene are in no list.
                     on |= u32::from(segments.met[lane]) << lane;
                 }
@@ -111,7 +62,7 @@ impl<O: PackedObjects> General<O> {
                     spans[lane] = segments.span(lane);
                     best[lane] = Nearest::new(rows.t_max[lane]);
                 }
-                if let Some(beam) = Beam::of(s, &segments, &ways, on, first as u32, self.spread) {
+                if let Some(beam) = Beam::of(s, &segments, &ways, on, first as u32, spread) {
                     beams.push(beam);
                     beam_rays.push(BeamRays::new(rows, on));
                     on = 0;

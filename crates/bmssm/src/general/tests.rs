@@ -227,7 +227,7 @@ fn neighbours_are_taken_together() {
         type Out = u64;
         fn objects<O: PackedObjects + 's>(self, objects: O) -> u64 {
             let settings = Settings { simd: Level::Portable, stretch: MOST_STRETCH, storage: Storage::Rows };
-            General::new(&objects, settings).count::<accel::Counters>(self.0, true).blocks
+            General::new(&objects, settings).count(self.0, true).blocks
         }
     }
     let scene = scene(triangles(6, 5000, 1.0, Vec3::ZERO));

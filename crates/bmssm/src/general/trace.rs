@@ -6,7 +6,7 @@ use super::General;
 use super::tree::{Node, WIDTH};
 use accel::grid::Segment;
 use accel::tolerance::{LIMIT_S, PARALLEL};
-use accel::{Count, Nearest, Ray};
+use accel::{Nearest, Ray};
 use lanes::{Blocks, PackedObjects, ROW, Simd};
 
 /// A component of the way is at least this long, so that its reciprocal is finite and no product is NaN.
@@ -101,13 +101,7 @@ impl Stack {
 impl<O: PackedObjects> General<O> {
     /// The nearest hit, or for `ANY` some hit.
     #[inline(always)]
-    pub(super) fn nearest<S: Simd, C: Count, const ANY: bool>(
-        &self,
-        s: S,
-        ray: &Ray,
-        stack: &mut Stack,
-        count: &mut C,
-    ) -> Nearest {
+    pub(super) fn nearest<S: Simd, const ANY: bool>(&self, s: S, ray: &Ray, stack: &mut Stack) -> Nearest {
         let mut best = Nearest::new(ray.t_max);
         let Some(segment) = self.frame.clip(ray) else {
             return best;
@@ -122,7 +116,6 @@ impl<O: PackedObjects> General<O> {
         let mut next = Some(Waiting { enter: 0.0, exit: 1.0, what: 0 });
         while let Some(Waiting { enter, exit, what }) = next {
             if what & Node::BLOCK == 0 {
-                count.cells(1);
                 next = match nearest_child(s, &self.nodes[what as usize], &way, limit, stack) {
                     None => stack.pop(limit),
                     child => child,
@@ -131,11 +124,8 @@ impl<O: PackedObjects> General<O> {
             }
             let exit = if exit < limit { exit } else { limit };
             let block = (what & !Node::BLOCK) as usize;
-            count.blocks(1);
             let candidates = self.maps[block].candidates(s, way.at(enter), way.at(exit));
             if candidates != 0 {
-                count.candidates(u64::from(candidates.count_ones()));
-                count.tests(u64::from(candidates.count_ones()));
                 if ANY {
                     if self.objects.any(s, block, candidates, &prepared, ray.t_max) {
                         best.object = 0;

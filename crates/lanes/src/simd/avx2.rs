@@ -44,6 +44,17 @@ impl Simd for Avx2 {
     type U = __m256i;
 
     #[inline(always)]
+    fn apart<T: Task>(self, task: T) -> T::Out {
+        #[inline(never)]
+        #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+        fn inner<T: Task>(task: T) -> T::Out {
+            task.run(Avx2(()))
+        }
+        // SAFETY: the token `Avx2` exists only where `present` found every feature enabled here.
+        unsafe { inner(task) }
+    }
+
+    #[inline(always)]
     fn splat(self, v: f32) -> Self::F {
         intrinsic!(_mm256_set1_ps(v))
     }

@@ -47,6 +47,19 @@ impl Simd for Avx512 {
     type U = __m512i;
 
     #[inline(always)]
+    fn apart<T: Task>(self, task: T) -> T::Out {
+        #[inline(never)]
+        #[target_feature(
+            enable = "avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi2,avx2,bmi1,bmi2,lzcnt,popcnt"
+        )]
+        fn inner<T: Task>(task: T) -> T::Out {
+            task.run(Avx512(()))
+        }
+        // SAFETY: the token `Avx512` exists only where `present` found every feature enabled here.
+        unsafe { inner(task) }
+    }
+
+    #[inline(always)]
     fn splat(self, v: f32) -> Self::F {
         intrinsic!(_mm512_set1_ps(v))
     }

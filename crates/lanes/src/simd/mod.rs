@@ -67,6 +67,12 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// `LANES` unsigned integers.
     type U: Copy;
 
+    /// Runs a task as a function of its own, compiled once for all callers: for work that takes much longer than a call.
+    #[inline(never)]
+    fn apart<T: Task>(self, task: T) -> T::Out {
+        task.run(self)
+    }
+
     /// All lanes `v`.
     fn splat(self, v: f32) -> Self::F;
     /// The first `LANES` floats of a slice.
