@@ -48,4 +48,6 @@ pub use ray::{Hit, Nearest, Ray, RayError, Surface};
 pub use rayset::{Common, Projection, Raster, RaySet};
 pub use scene::{Geometry, Scene, View};
 pub use solid::Solid;
-pub use structure::{Accel, BuildError, Builder, Count, Counters, NoCount, Workload, for_each_ray};
+pub use structure::{
+    Accel, BuildError, BuildResult, Builder, Count, Counters, NoCount, Workload, for_each_ray,
+};

@@ -121,6 +121,9 @@ impl Workload {
     }
 }
 
+/// A structure for a scene, or why there is none.
+pub type BuildResult<'s> = Result<Box<dyn Accel + 's>, BuildError>;
+
 /// Makes structures of one kind with fixed settings.
 pub trait Builder: Send + Sync {
     /// The structure's id, such as `bmssm-dense`.
@@ -135,19 +138,14 @@ pub trait Builder: Send + Sync {
     ///
     /// # Errors
     /// Where the structure can't serve this scene or workload, or its memory would not fit.
-    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError>;
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> BuildResult<'s>;
 
     /// [`Builder::build`] that gives up soon after it is asked to. By default it looks before building and after;
     /// builders that may take long look in between.
     ///
     /// # Errors
     /// As [`Builder::build`], and [`BuildError::Cancelled`].
-    fn build_unless<'s>(
-        &self,
-        scene: &'s Scene,
-        workload: &Workload,
-        cancel: Cancel,
-    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build_unless<'s>(&self, scene: &'s Scene, workload: &Workload, cancel: Cancel) -> BuildResult<'s> {
         cancel.check(self.id())?;
         let built = self.build(scene, workload)?;
         cancel.check(self.id())?;

@@ -1,35 +1,17 @@
 //! Brute force with the exact kernel against the oracle.
 #![cfg(feature = "exact")]
 
+#[path = "../../primitives/src/kernel/exact/strategies.rs"]
+mod strategies;
+
 use accel::{Builder, Corners, Geometry, Mesh, Ray, RaySet, Scene, Vec3, View, Workload};
 use baselines::Brute;
 use lanes::ROW;
 use oracle::{Oracle, Verdict, classify};
 use primitives::KernelId;
 use proptest::prelude::*;
+use strategies::{aim, corners, lattice, vector, weights};
 
-fn lattice() -> impl Strategy<Value = f32> + Clone {
-    prop_oneof![4 => (-3i8..=3).prop_map(f32::from), 1 => Just(-0.0f32), 1 => Just(0.5f32)]
-}
-
-fn vector(of: impl Strategy<Value = f32> + Clone) -> impl Strategy<Value = Vec3> {
-    [of.clone(), of.clone(), of].prop_map(Vec3::from)
-}
-
-fn corners(of: impl Strategy<Value = f32> + Clone) -> impl Strategy<Value = Corners> {
-    [vector(of.clone()), vector(of.clone()), vector(of)]
-}
-
-/// Weights of the corners, often of an edge's or a corner's point.
-fn weights() -> impl Strategy<Value = [f32; 3]> {
-    let one = prop_oneof![Just(0f32), Just(1.0), 0f32..1.0];
-    [one.clone(), one.clone(), one]
-}
-
-fn aim(triangle: &Corners, weights: [f32; 3]) -> Vec3 {
-    let sum = weights.iter().sum::<f32>().max(1e-3);
-    (0..3).fold(Vec3::ZERO, |p, k| p + triangle[k] * (weights[k] / sum))
-}
 fn scene(list: &[Corners]) -> Scene {
     let mesh = Mesh {
         positions: list.iter().flatten().copied().collect(),

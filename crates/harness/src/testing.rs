@@ -5,6 +5,7 @@ use crate::record::*;
 pub use accel::testing::random;
 use accel::{Geometry, Mesh, Projection, Raster, Ray, RaySet, Scene, Vec3, View};
 use primitives::KernelId;
+use scenes::rays::{RaysId, RaysSpec, generate};
 
 fn scene(id: &str, mesh: Mesh) -> Scene {
     let view = View { eye: Vec3::Z * 4.0, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
@@ -16,6 +17,17 @@ pub fn cloud(triangles: u32, rays: u32) -> (Scene, RaySet) {
     let (cloud, rays) = accel::testing::cloud(triangles, rays);
     let view = View { eye: Vec3::Z * 4.0, ..cloud.view };
     (Scene { id: "cloud".into(), view, ..cloud }, rays)
+}
+
+/// A bumpy sphere far from the origin and 1,600 rays at its corners, which tests in `f32` often get wrong.
+pub fn distant_corners() -> (Scene, RaySet) {
+    let scene =
+        scenes::load(&"bumps-1k@offset=1e5,0,0".parse().expect("a scene's name")).expect("a generated scene");
+    let tracer = crate::registry::quick(&scene, KernelId::Exact);
+    let spec = RaysSpec { id: RaysId::LeakVertex, rows: 40, cols: 40, seed: 1 };
+    let rays = generate(&scene, &spec, tracer.as_ref()).expect("corners to aim at");
+    drop(tracer);
+    (scene, rays)
 }
 
 /// An octahedron around the origin, and rays from its inside.

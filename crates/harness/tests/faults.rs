@@ -11,9 +11,9 @@ use bmssm::suite::general::{General, Settings};
 use harness::registry::{Choice, ChosenKernel, Entry};
 use harness::sweeps::{differences, leaks, oracle};
 use harness::workload::Subject;
-use lanes::packet::{Lanes, Packet};
+use lanes::packet::Lanes;
 use lanes::{Level, PackedObjects, Simd};
-use primitives::kernel::{Floats, Immediate, Packed, Unprepared, Watertight};
+use primitives::kernel::{Many, Packed, Watertight};
 use primitives::{Kernel, KernelId, Triangles};
 use scenes::rays::RaysId;
 use std::sync::Arc;
@@ -32,25 +32,14 @@ fn without_edges<S: Simd>(s: S, lanes: Lanes<S>) -> Lanes<S> {
 
 impl Kernel for OpenEdges {
     const ID: KernelId = KernelId::Watertight;
-    type Preparation = Unprepared;
-    type Search = Immediate;
-    type Storage = Floats;
+    primitives::plain_kernel!();
     type One = <Watertight as Kernel>::One;
-    type Many<S: Simd> = <Watertight as Kernel>::Many<S>;
-
-    fn one(ray: &Ray) -> Self::One {
-        Watertight::one(ray)
-    }
-
-    fn many<S: Simd>(s: S, rays: &Packet<S>) -> Self::Many<S> {
-        Watertight::many(s, rays)
-    }
 
     fn triangles<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {
         without_edges(s, Watertight::triangles(s, ray, packed, wanted, t_max))
     }
 
-    fn rays<S: Simd>(s: S, rays: &Self::Many<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+    fn rays<S: Simd>(s: S, rays: &Many<Self, S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
         without_edges(s, Watertight::rays(s, rays, packed, t_max))
     }
 }

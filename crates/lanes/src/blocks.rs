@@ -36,9 +36,11 @@ pub trait PackedObjects: Objects + Copy {
     }
 }
 
-/// What rays have in common, and what [`Blocks::prepare`] computed of it for 16 slots.
+/// A slot, what rays have in common, and what [`Blocks::prepare`] computed of it for the slot's 16.
 #[derive(Clone, Copy, Debug)]
 pub struct Shared<'a> {
+    /// The slot.
+    pub slot: usize,
     /// A point or a direction.
     pub common: &'a Common,
     /// [`Blocks::PREPARED_ROWS`] rows.
@@ -136,16 +138,8 @@ pub trait Blocks: Send + Sync {
     /// [`Blocks::packet`] for rays with this in common, with the rows prepared for the slot's 16:
     /// the same operations, so the same bits, but those that don't depend on the ray done before.
     #[inline(always)]
-    fn packet_prepared<S: Simd>(
-        &self,
-        s: S,
-        slot: usize,
-        shared: Shared<'_>,
-        rays: &Self::Many<S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        let _ = shared;
-        self.packet(s, slot, rays, best);
+    fn packet_prepared<S: Simd>(&self, s: S, at: Shared, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+        self.packet(s, at.slot, rays, best);
     }
 
     /// [`Blocks::resolve`] for what [`Blocks::packet`] deferred.

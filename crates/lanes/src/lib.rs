@@ -9,6 +9,6 @@ mod simd;
 
 pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Shared};
 pub use ids::Ids;
-pub use one_by_one::OneByOne;
+pub use one_by_one::{OneByOne, Unpacked};
 pub use simd::path;
-pub use simd::{Level, Portable, ROW, Row, SHARE, Scalar, Simd, Task, prefetch};
+pub use simd::{Level, Lists, Portable, ROW, Row, SHARE, Scalar, Simd, Task, prefetch};

@@ -1,10 +1,25 @@
 //! Blocks of objects that know no packed form.
 
-use crate::blocks::{BLOCK, Blocks, EMPTY_SLOT};
+use crate::blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects};
 use crate::packet::{Lanes, NearestPacket, Packet};
 use crate::simd::{ROW, Simd};
-use accel::Objects;
-use accel::{Nearest, Ray};
+use accel::{Nearest, Objects, Ray};
+
+/// Objects that know no packed form: those of a block are tested one by one, where the scene has them.
+pub trait Unpacked: Objects + Copy {}
+
+impl<O: Unpacked> PackedObjects for O {
+    type Blocks = OneByOne<Self>;
+    type Shape = Self;
+
+    fn shape(&self) -> Self {
+        *self
+    }
+
+    fn blocks(&self, order: &[u32]) -> Self::Blocks {
+        OneByOne::new(*self, order)
+    }
+}
 
 /// Tests the objects of a block by [`Objects::intersect`], bit by bit.
 #[derive(Clone, Debug)]

@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn the_closed_form_is_within_two_percent_of_the_print() {
-        for (p, row) in OBJECTS.iter().zip(TABLE_6) {
+        for (p, row) in OBJECTS.iter().zip(*TABLE_6) {
             for (s, printed) in SIDES.iter().zip(row) {
                 let ratio = expected_mean(*p, *s) / printed;
                 assert!((ratio - 1.0).abs() < 0.02, "p = {p}, s = {s}: {ratio}");

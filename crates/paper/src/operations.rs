@@ -7,11 +7,14 @@ use super::table::{Table, legible};
 use super::timing::medians;
 use serde::{Deserialize, Serialize};
 use std::hint::black_box;
+use std::num::Wrapping;
+use std::ops::{Add, Div, Mul};
 
 /// Operands of each loop; they stay in the first cache.
 const LENGTH: usize = 1024;
 
-type Costs = [[f64; 5]; 2];
+/// Of := < ± × ÷.
+type Costs = [f64; 5];
 
 /// Operations of independent elements, as the compiler makes them of a plain loop.
 macro_rules! throughput {
@@ -19,7 +22,7 @@ macro_rules! throughput {
         let mut times = Vec::new();
         $(times.push(medians($rounds, &mut [&mut |_| {
             let (a, b, out) = (black_box(&$a), black_box(&$b), black_box(&mut $out));
-            for ((a, b), out) in a.iter().zip(b).zip(out) {
+            for ((a, b), out) in a.iter().zip(b.iter()).zip(out) {
                 *out = $op(*a, *b);
             }
         }])[0] / LENGTH as f64);)*
@@ -43,39 +46,37 @@ macro_rules! latency {
     }};
 }
 
+/// Nanoseconds of := < ± × ÷ of independent elements.
+fn independent<T>(rounds: usize, a: &[T], b: &[T], [zero, one]: [T; 2]) -> Costs
+where
+    T: Copy + PartialOrd + Add<Output = T> + Mul<Output = T> + Div<Output = T>,
+{
+    let mut out = vec![zero; LENGTH];
+    let times = throughput!(
+        rounds,
+        a,
+        b,
+        out,
+        [
+            |a: T, _: T| a,
+            |a: T, b: T| if a < b { one } else { zero },
+            |a: T, b: T| a + b,
+            |a: T, b: T| a * b,
+            |a: T, b: T| a / b
+        ]
+    );
+    std::array::from_fn(|i| times[i])
+}
+
 /// Nanoseconds of := < ± × ÷ for `i32` and `f32`: independent, and each waiting for the one before.
-fn measure(rounds: usize) -> [Costs; 2] {
+fn measure(rounds: usize) -> [[Costs; 2]; 2] {
     let ints = [17i32, 3].map(|m| (0..LENGTH as i32).map(|i| i * m % 1009 + 2).collect::<Vec<_>>());
     let floats = ints.clone().map(|v| v.iter().map(|i| 1.0 + *i as f32 * 1e-3).collect::<Vec<_>>());
+    let wrapping = ints.clone().map(|v| v.into_iter().map(Wrapping).collect::<Vec<_>>());
     let ([ia, ib], [fa, fb]) = (ints, floats);
-    let (mut iout, mut fout) = (vec![0i32; LENGTH], vec![0f32; LENGTH]);
-    let row = |times: Vec<f64>| -> [f64; 5] { std::array::from_fn(|i| times[i]) };
-    let int = throughput!(
-        rounds,
-        ia,
-        ib,
-        iout,
-        [
-            |a: i32, _: i32| a,
-            |a: i32, b: i32| i32::from(a < b),
-            |a: i32, b: i32| a.wrapping_add(b),
-            |a: i32, b: i32| a.wrapping_mul(b),
-            |a: i32, b: i32| a.wrapping_div(b)
-        ]
-    );
-    let float = throughput!(
-        rounds,
-        fa,
-        fb,
-        fout,
-        [
-            |a: f32, _: f32| a,
-            |a: f32, b: f32| if a < b { 1.0 } else { 0.0 },
-            |a: f32, b: f32| a + b,
-            |a: f32, b: f32| a * b,
-            |a: f32, b: f32| a / b
-        ]
-    );
+    let row = |times: Vec<f64>| -> Costs { std::array::from_fn(|i| times[i]) };
+    let int = independent(rounds, &wrapping[0], &wrapping[1], [Wrapping(0), Wrapping(1)]);
+    let float = independent(rounds, &fa, &fb, [0.0, 1.0]);
     let mut waiting_int = latency!(
         rounds,
         ia,
@@ -107,7 +108,7 @@ fn measure(rounds: usize) -> [Costs; 2] {
             |x: f32, a: f32, _: f32| a / x
         ]
     );
-    [[row(int), row(float)], [row(waiting_int), row(waiting_float)]]
+    [[int, float], [row(waiting_int), row(waiting_float)]]
 }
 
 /// A time of the model.
@@ -205,7 +206,7 @@ fn loops(rounds: usize) -> [f64; 4] {
 /// Table 1 and the cost model, measured in `rounds` rounds.
 pub fn evaluate(rounds: usize) -> (Table, CostModel) {
     let [throughput, latency] = measure(rounds);
-    let scaled = |costs: &Costs, unit: f64| costs.map(|row| row.map(|ns| ns / unit).to_vec()).to_vec();
+    let scaled = |costs: &[Costs; 2], unit: f64| costs.map(|row| row.map(|ns| ns / unit).to_vec()).to_vec();
     let table = Table {
         title: "Time of operations, in 1/10 s for 5,000,000 of them (a value v is v·20 ns)".into(),
         row_name: "type".into(),

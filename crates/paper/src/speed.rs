@@ -185,12 +185,12 @@ fn pair(projection: Projection, prints: [(&str, &Cells); 2], rounds: usize) -> [
 /// Tables 2 to 5: medians of `rounds` interleaved rounds, each over the rays of another row of the image.
 pub fn tables(rounds: usize) -> [Table; 4] {
     let parallel = [
-        ("ν of BMSSM against the min-max test, parallel", &TABLE_2),
-        ("ν of BMSSM against the sphere (circle) test, parallel", &TABLE_3),
+        ("ν of BMSSM against the min-max test, parallel", &*TABLE_2),
+        ("ν of BMSSM against the sphere (circle) test, parallel", &*TABLE_3),
     ];
     let perspective = [
-        ("ν of BMSSM against the min-max test, perspective", &TABLE_4),
-        ("ν of BMSSM against the sphere test, perspective", &TABLE_5),
+        ("ν of BMSSM against the min-max test, perspective", &*TABLE_4),
+        ("ν of BMSSM against the sphere test, perspective", &*TABLE_5),
     ];
     let [two, three] = pair(Projection::Parallel, parallel, rounds);
     let [four, five] = pair(Projection::Perspective, perspective, rounds);

@@ -3,7 +3,7 @@
 use accel::Objects;
 use accel::tolerance::pad_of;
 use accel::{Aabb, Hit, Ray, Surface};
-use lanes::{OneByOne, PackedObjects};
+use lanes::Unpacked;
 
 /// Solid axis-aligned boxes. A ray from outside hits where it enters, a ray from inside
 /// where it leaves; u and v are 0.
@@ -49,18 +49,7 @@ impl Objects for Boxes<'_> {
     }
 }
 
-impl PackedObjects for Boxes<'_> {
-    type Blocks = OneByOne<Self>;
-    type Shape = Self;
-
-    fn shape(&self) -> Self {
-        *self
-    }
-
-    fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        OneByOne::new(*self, order)
-    }
-}
+impl Unpacked for Boxes<'_> {}
 
 #[cfg(test)]
 mod tests {

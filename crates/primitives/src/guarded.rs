@@ -3,7 +3,7 @@
 use accel::input::{InputError, check_extent};
 use accel::tolerance::{holds, pad_of};
 use accel::{Aabb, Hit, Objects, Ray, Surface};
-use lanes::{OneByOne, PackedObjects};
+use lanes::Unpacked;
 
 /// Objects of any kind, held to what structures rely on: boxes are padded, and a hit outside of its object's
 /// padded box is none.
@@ -72,18 +72,7 @@ impl<O: Objects> Objects for Guarded<'_, O> {
     }
 }
 
-impl<O: Objects> PackedObjects for Guarded<'_, O> {
-    type Blocks = OneByOne<Self>;
-    type Shape = Self;
-
-    fn shape(&self) -> Self {
-        *self
-    }
-
-    fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        OneByOne::new(*self, order)
-    }
-}
+impl<O: Objects> Unpacked for Guarded<'_, O> {}
 
 #[cfg(test)]
 mod tests {

@@ -61,9 +61,6 @@ pub enum Error {
     /// A record that can't be read or written.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// A record of a trade that can't be read.
-    #[error(transparent)]
-    Trade(#[from] trade::ReadError),
 }
 
 impl From<PaperError> for Error {
@@ -135,20 +132,13 @@ impl Error {
                 "give --out another name to begin a new record, or leave out --resume to replace this one"
                     .into(),
             ),
-            Self::Record(RecordError::Io { source, .. })
-            | Self::Trade(trade::ReadError::Io { source, .. })
-            | Self::Io { source, .. } => {
+            Self::Record(RecordError::Io { source, .. }) | Self::Io { source, .. } => {
                 let by_path =
                     matches!(source.kind(), io::ErrorKind::NotFound | io::ErrorKind::PermissionDenied);
                 by_path.then(|| "check the path and who may read or write it".into())
             }
-            Self::Trade(trade::ReadError::Syntax { .. }) => {
-                Some("name a trade.json that `rayscale trade` wrote".into())
-            }
-            Self::Record(RecordError::Syntax { .. }) => {
-                Some("name a record.json that `rayscale measure` or `rayscale compare` wrote".into())
-            }
-            Self::Record(_) | Self::Trade(_) | Self::Rays(_) | Self::Build(_) => None,
+            Self::Record(RecordError::Syntax { kind, .. }) => Some(format!("name {}", kind.example)),
+            Self::Record(_) | Self::Rays(_) | Self::Build(_) => None,
         }
     }
 

@@ -21,6 +21,11 @@ impl Random {
         Self(mix(seed ^ 0x5ca1_ab1e_0ddb_a115))
     }
 
+    /// The stream of SplitMix64 itself, which other programs draw from the same state.
+    pub fn from_state(state: u64) -> Self {
+        Self(state)
+    }
+
     /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -70,6 +75,13 @@ mod tests {
         let mut again = Random::new(1);
         assert_eq!(drawn, [again.bits(), again.bits()]);
         assert_ne!(drawn[0], Random::new(2).bits());
+    }
+
+    #[test]
+    fn the_stream_is_splitmix64() {
+        let mut random = Random::from_state(1_234_567);
+        let drawn: [u64; 3] = std::array::from_fn(|_| random.bits());
+        assert_eq!(drawn, [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::{Crossing, Crossings};
 use accel::tolerance::{holds, pad_of};
 use accel::{Aabb, Hit, Objects, Ray, Solid, Surface};
-use lanes::{OneByOne, PackedObjects};
+use lanes::Unpacked;
 
 /// The solids of a scene, of any kinds.
 #[derive(Clone, Copy, Debug)]
@@ -57,15 +57,4 @@ impl Objects for Solids<'_> {
     }
 }
 
-impl PackedObjects for Solids<'_> {
-    type Blocks = OneByOne<Self>;
-    type Shape = Self;
-
-    fn shape(&self) -> Self {
-        *self
-    }
-
-    fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        OneByOne::new(*self, order)
-    }
-}
+impl Unpacked for Solids<'_> {}

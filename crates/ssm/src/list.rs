@@ -6,8 +6,8 @@ use crate::settings::Settings;
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{
-    Accel, Bounds, BuildError, Builder, Cancel, Count, Counters, Footprint, Hit, Nearest, NoCount, Objects,
-    Ray, RaySet, Scene, Workload, for_each_ray,
+    Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Count, Counters, Footprint, Hit, Nearest,
+    NoCount, Objects, Ray, RaySet, Scene, Workload, for_each_ray,
 };
 use lanes::{PackedObjects, Simd, Task};
 use primitives::WithObjects;
@@ -50,16 +50,11 @@ impl Builder for SsmList {
         self.settings.display()
     }
 
-    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> BuildResult<'s> {
         self.build_unless(scene, workload, Cancel::NEVER)
     }
 
-    fn build_unless<'s>(
-        &self,
-        scene: &'s Scene,
-        _: &Workload,
-        cancel: Cancel,
-    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build_unless<'s>(&self, scene: &'s Scene, _: &Workload, cancel: Cancel) -> BuildResult<'s> {
         primitives::with_objects(scene, self.settings.kernel, Build(self.settings, cancel))
     }
 }
@@ -67,7 +62,7 @@ impl Builder for SsmList {
 struct Build<'c>(Settings, Cancel<'c>);
 
 impl<'s> WithObjects<'s> for Build<'_> {
-    type Out = Result<Box<dyn Accel + 's>, BuildError>;
+    type Out = BuildResult<'s>;
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         if objects.len() <= usize::from(u16::MAX) {
             Ok(Box::new(Built::<O, u16>::new(objects, &objects.shape(), &self.0, self.1)?))

@@ -6,6 +6,7 @@ use harness::registry::{self, Choice, guarded_build};
 use harness::workload::{pick, sample};
 use judge::{Counts, Judge, Tolerance, Truth};
 use primitives::KernelId;
+use scenes::Random;
 use scenes::rays::{RaysId, RaysSpec, generate};
 use serde::{Deserialize, Serialize};
 
@@ -236,7 +237,7 @@ fn aimed(scene: &Scene, radii: f64, rays: usize, seed: u64) -> Vec<Ray> {
     let mesh = mesh(scene);
     let bounds = mesh.bounds();
     let radius = (bounds.max.as_dvec3() - bounds.min.as_dvec3()).max_element() * 0.5 * radii;
-    let mut random = Random(seed);
+    let mut random = Random::from_state(seed);
     let mut list = Vec::new();
     while list.len() < rays {
         let [a, b, c] = mesh.corners(random.below(mesh.triangles.len())).map(|p| p.as_dvec3());
@@ -274,27 +275,6 @@ fn at_edges(scene: &Scene, rays: usize) -> Vec<Ray> {
         Ray::new(eye, (target - eye.as_dvec3()).as_vec3())
     };
     sample(mesh.triangles.len(), rays).into_iter().map(ray).collect()
-}
-
-/// SplitMix64 (Steele, Lea and Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.unit() * n as f64) as usize
-    }
 }
 
 #[cfg(test)]

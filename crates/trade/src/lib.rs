@@ -18,6 +18,6 @@ mod timing;
 
 pub use accuracy::Accuracy;
 pub use judged::{Judged, KindBounds, Set};
-pub use record::{FORMAT, ReadError, Trade};
+pub use record::{FORMAT, Trade};
 pub use row::{Row, mark_front};
 pub use run::{HUNTING, ORDINARY, Plan, TIMED, defaults, run};

@@ -5,11 +5,10 @@ use crate::curve::Precise;
 use crate::extremes::Extreme;
 use crate::leaving::Leaving;
 use harness::machine::Machine;
-use harness::record::{SceneEntry, Skipped, Suite};
+use harness::record::{Kind, RecordError, SceneEntry, Skipped, Suite, read_kind};
 use judge::Tolerance;
 use serde::{Deserialize, Serialize};
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The form of records. Those of form 1, which say none, have one rate for ordinary and hunting rays.
 pub const FORMAT: u32 = 2;
@@ -46,57 +45,23 @@ pub struct Trade {
     pub skipped: Vec<Skipped>,
 }
 
-fn first() -> u32 {
+const fn first() -> u32 {
     1
 }
 
-/// Why there is no record to be had from a file.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadError {
-    /// The file can't be read.
-    #[error("{}: {source}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// The file holds no record of a trade.
-    #[error("{}, line {}, column {}: not a record of `rayscale trade`: {source}", path.display(), source.line(), source.column())]
-    Syntax {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        source: serde_json::Error,
-    },
-    /// A record of a later form.
-    #[error("{}: a record of format {found}; this program reads up to format {FORMAT}", path.display())]
-    Format {
-        /// The file.
-        path: PathBuf,
-        /// Its format.
-        found: u32,
-    },
-}
+const KIND: Kind = Kind {
+    of: "`rayscale trade`",
+    example: "a trade.json that `rayscale trade` wrote",
+    format: FORMAT,
+    unsaid: Some(first()),
+};
 
 impl Trade {
     /// Reads a record, of old or new.
     ///
     /// # Errors
     /// Files that can't be read, are no record, or are of a later form.
-    pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let io = |source| ReadError::Io { path: path.to_owned(), source };
-        let syntax = |source| ReadError::Syntax { path: path.to_owned(), source };
-        let text = std::fs::read_to_string(path).map_err(io)?;
-        #[derive(Deserialize)]
-        struct Head {
-            #[serde(default = "first")]
-            format: u32,
-        }
-        let Head { format } = serde_json::from_str(&text).map_err(syntax)?;
-        if format > FORMAT {
-            return Err(ReadError::Format { path: path.to_owned(), found: format });
-        }
-        serde_json::from_str(&text).map_err(syntax)
+    pub fn read(path: &Path) -> Result<Self, RecordError> {
+        read_kind(path, KIND)
     }
 }

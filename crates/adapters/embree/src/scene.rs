@@ -68,28 +68,29 @@ pub enum Coherence {
     Coherent,
 }
 
-impl Coherence {
-    const fn intersect_arguments(self) -> &'static RTCIntersectArguments {
-        static INCOHERENT: RTCIntersectArguments = RTCIntersectArguments::new(RTCRayQueryFlags::INCOHERENT);
-        static COHERENT: RTCIntersectArguments = RTCIntersectArguments::new(RTCRayQueryFlags::COHERENT);
-        match self {
-            Self::Incoherent => &INCOHERENT,
-            Self::Coherent => &COHERENT,
-        }
-    }
+/// Arguments of queries.
+struct Arguments {
+    intersect: RTCIntersectArguments,
+    occluded: RTCOccludedArguments,
+}
 
-    const fn occluded_arguments(self) -> &'static RTCOccludedArguments {
-        static INCOHERENT: RTCOccludedArguments = RTCOccludedArguments::new(RTCRayQueryFlags::INCOHERENT);
-        static COHERENT: RTCOccludedArguments = RTCOccludedArguments::new(RTCRayQueryFlags::COHERENT);
+impl Arguments {
+    const fn new(flags: RTCRayQueryFlags) -> Self {
+        Self { intersect: RTCIntersectArguments::new(flags), occluded: RTCOccludedArguments::new(flags) }
+    }
+}
+
+static INCOHERENT: Arguments = Arguments::new(RTCRayQueryFlags::INCOHERENT);
+static COHERENT: Arguments = Arguments::new(RTCRayQueryFlags::COHERENT);
+
+impl Coherence {
+    const fn arguments(self) -> &'static Arguments {
         match self {
             Self::Incoherent => &INCOHERENT,
             Self::Coherent => &COHERENT,
         }
     }
 }
-
-static INTERSECT: RTCIntersectArguments = RTCIntersectArguments::new(RTCRayQueryFlags::INCOHERENT);
-static OCCLUDED: RTCOccludedArguments = RTCOccludedArguments::new(RTCRayQueryFlags::INCOHERENT);
 
 /// A committed scene of one triangle mesh, whose buffers it reads where they lie.
 ///
@@ -202,7 +203,9 @@ impl<'m> EmbreeScene<'m> {
     pub fn intersect1(&self, rayhit: &mut RTCRayHit) {
         // SAFETY: the scene is committed; the ray-hit has the alignment and the room that Embree 4.0 to 4.4 write to;
         // the arguments are only read.
-        unsafe { sys::rtcIntersect1(self.handle.as_ptr(), rayhit, (&raw const INTERSECT).cast_mut()) };
+        unsafe {
+            sys::rtcIntersect1(self.handle.as_ptr(), rayhit, (&raw const INCOHERENT.intersect).cast_mut())
+        };
     }
 
     /// Whether one ray hits anything (`rtcOccluded1`).
@@ -210,7 +213,9 @@ impl<'m> EmbreeScene<'m> {
     pub fn occluded(&self, ray: &Ray) -> bool {
         let mut ray = single(ray);
         // SAFETY: as for `intersect1`.
-        unsafe { sys::rtcOccluded1(self.handle.as_ptr(), &raw mut ray, (&raw const OCCLUDED).cast_mut()) };
+        unsafe {
+            sys::rtcOccluded1(self.handle.as_ptr(), &raw mut ray, (&raw const INCOHERENT.occluded).cast_mut())
+        };
         ray.tfar == f32::NEG_INFINITY
     }
 
@@ -222,7 +227,7 @@ impl<'m> EmbreeScene<'m> {
     pub fn closest16(&self, rays: &[Ray], coherence: Coherence, hits: &mut [Option<Hit>]) {
         let mut packet = packet(rays);
         let active = Active::first(rays.len());
-        let arguments = std::ptr::from_ref(coherence.intersect_arguments()).cast_mut();
+        let arguments = (&raw const coherence.arguments().intersect).cast_mut();
         // SAFETY: as for `intersect1`, with the layout of 16; the mask is aligned to 64 bytes.
         unsafe { sys::rtcIntersect16(active.as_ptr(), self.handle.as_ptr(), &raw mut packet, arguments) };
         for (lane, hit) in hits[..rays.len()].iter_mut().enumerate() {
@@ -238,7 +243,7 @@ impl<'m> EmbreeScene<'m> {
     pub fn occluded16(&self, rays: &[Ray], coherence: Coherence, occluded: &mut [bool]) {
         let mut packet = packet(rays).ray;
         let active = Active::first(rays.len());
-        let arguments = std::ptr::from_ref(coherence.occluded_arguments()).cast_mut();
+        let arguments = (&raw const coherence.arguments().occluded).cast_mut();
         // SAFETY: as for `closest16`.
         unsafe { sys::rtcOccluded16(active.as_ptr(), self.handle.as_ptr(), &raw mut packet, arguments) };
         for (lane, occluded) in occluded[..rays.len()].iter_mut().enumerate() {

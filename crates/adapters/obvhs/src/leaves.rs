@@ -37,21 +37,28 @@ pub trait Packed: for<'a> From<&'a Triangle> + Send + Sync {
     fn surface(&self, ray: &Ray) -> (f32, f32);
 }
 
+/// The tests of both forms, by methods that they share in name only.
+macro_rules! tests {
+    () => {
+        #[inline(always)]
+        fn hit(&self, ray: &Ray) -> f32 {
+            self.intersect(ray)
+        }
+
+        #[inline(always)]
+        fn surface(&self, ray: &Ray) -> (f32, f32) {
+            self.compute_barycentric(ray).into()
+        }
+    };
+}
+
 /// With precomputed edges and normal, 64 bytes.
 impl Packed for RtTriangle {
     fn seen(triangle: Triangle) -> Triangle {
         triangle
     }
 
-    #[inline(always)]
-    fn hit(&self, ray: &Ray) -> f32 {
-        self.intersect(ray)
-    }
-
-    #[inline(always)]
-    fn surface(&self, ray: &Ray) -> (f32, f32) {
-        self.compute_barycentric(ray).into()
-    }
+    tests!();
 }
 
 /// With its edges in 16-bit floats, 24 bytes. Each triangle rounds for itself, so neighbours no longer share corners.
@@ -61,15 +68,7 @@ impl Packed for RtCompressedTriangle {
         Triangle { v0, v1, v2 }
     }
 
-    #[inline(always)]
-    fn hit(&self, ray: &Ray) -> f32 {
-        self.intersect(ray)
-    }
-
-    #[inline(always)]
-    fn surface(&self, ray: &Ray) -> (f32, f32) {
-        self.compute_barycentric(ray).into()
-    }
+    tests!();
 }
 
 /// Triangles as obvhs packs them.

@@ -31,22 +31,37 @@ pub trait Tree: Sized + Send + Sync {
     fn clear(&self, ray: Ray, test: impl FnMut(&Ray, usize) -> f32) -> bool;
 }
 
-fn nearest(hit: &RayHit) -> Option<(f32, usize)> {
-    (hit.primitive_id != INVALID_ID).then_some((hit.t, hit.primitive_id as usize))
+/// What both trees do alike, by functions of obvhs and methods that they share in name only.
+macro_rules! built_and_traced_by {
+    ($from_triangles:ident, $from_boxes:ident, $tidy:ident) => {
+        fn of_triangles(triangles: &[Triangle], parameters: BvhBuildParams) -> Self {
+            $tidy($from_triangles(triangles, parameters, &mut Duration::default()))
+        }
+
+        fn of_boxes(boxes: &[Aabb], parameters: BvhBuildParams) -> Self {
+            $tidy($from_boxes(boxes, parameters, &mut Duration::default()))
+        }
+
+        fn order(&self) -> &[u32] {
+            &self.primitive_indices
+        }
+
+        #[inline(always)]
+        fn closest(&self, ray: Ray, test: impl FnMut(&Ray, usize) -> f32) -> Option<(f32, usize)> {
+            let mut hit = RayHit::none();
+            self.ray_traverse(ray, &mut hit, test);
+            (hit.primitive_id != INVALID_ID).then_some((hit.t, hit.primitive_id as usize))
+        }
+
+        #[inline(always)]
+        fn clear(&self, ray: Ray, test: impl FnMut(&Ray, usize) -> f32) -> bool {
+            self.ray_traverse_miss(ray, test)
+        }
+    };
 }
 
 impl Tree for Bvh2 {
-    fn of_triangles(triangles: &[Triangle], parameters: BvhBuildParams) -> Self {
-        without_spare(build_bvh2_from_tris(triangles, parameters, &mut Duration::default()))
-    }
-
-    fn of_boxes(boxes: &[Aabb], parameters: BvhBuildParams) -> Self {
-        without_spare(build_bvh2(boxes, parameters, &mut Duration::default()))
-    }
-
-    fn order(&self) -> &[u32] {
-        &self.primitive_indices
-    }
+    built_and_traced_by!(build_bvh2_from_tris, build_bvh2, without_spare);
 
     fn bytes(&self) -> [(&'static str, usize); 2] {
         let indices = [
@@ -56,18 +71,6 @@ impl Tree for Bvh2 {
             &self.parents,
         ];
         [("nodes", vec_bytes(&self.nodes)), ("indices", indices.into_iter().map(vec_bytes).sum())]
-    }
-
-    #[inline(always)]
-    fn closest(&self, ray: Ray, test: impl FnMut(&Ray, usize) -> f32) -> Option<(f32, usize)> {
-        let mut hit = RayHit::none();
-        self.ray_traverse(ray, &mut hit, test);
-        nearest(&hit)
-    }
-
-    #[inline(always)]
-    fn clear(&self, ray: Ray, test: impl FnMut(&Ray, usize) -> f32) -> bool {
-        self.ray_traverse_miss(ray, test)
     }
 }
 
@@ -82,32 +85,10 @@ fn without_spare(mut tree: Bvh2) -> Bvh2 {
 }
 
 impl Tree for CwBvh {
-    fn of_triangles(triangles: &[Triangle], parameters: BvhBuildParams) -> Self {
-        shrunk(build_cwbvh_from_tris(triangles, parameters, &mut Duration::default()))
-    }
-
-    fn of_boxes(boxes: &[Aabb], parameters: BvhBuildParams) -> Self {
-        shrunk(build_cwbvh(boxes, parameters, &mut Duration::default()))
-    }
-
-    fn order(&self) -> &[u32] {
-        &self.primitive_indices
-    }
+    built_and_traced_by!(build_cwbvh_from_tris, build_cwbvh, shrunk);
 
     fn bytes(&self) -> [(&'static str, usize); 2] {
         [("nodes", vec_bytes(&self.nodes)), ("indices", vec_bytes(&self.primitive_indices))]
-    }
-
-    #[inline(always)]
-    fn closest(&self, ray: Ray, test: impl FnMut(&Ray, usize) -> f32) -> Option<(f32, usize)> {
-        let mut hit = RayHit::none();
-        self.ray_traverse(ray, &mut hit, test);
-        nearest(&hit)
-    }
-
-    #[inline(always)]
-    fn clear(&self, ray: Ray, test: impl FnMut(&Ray, usize) -> f32) -> bool {
-        self.ray_traverse_miss(ray, test)
     }
 }
 

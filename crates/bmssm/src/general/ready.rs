@@ -6,7 +6,7 @@ use super::traveller::{Traveller, WayRows};
 use accel::grid::{Grid, RayRows, Span};
 use accel::{Nearest, Ray};
 use lanes::packet::Packet;
-use lanes::{ROW, SHARE, Simd, Task};
+use lanes::{Lists, ROW, SHARE, Simd, Task};
 
 /// Octants of directions.
 pub(super) const OCTANTS: usize = 8;
@@ -72,7 +72,7 @@ impl Task for Begin<'_> {
                     marks[row * ROW + lane] = (on >> lane & 1) as u16 * (1 << ways.octant(lane));
                 }
             }
-            s.distribute(&ids, &marks, lists, stride, &mut lens);
+            s.distribute(&ids, &marks, &mut Lists { ids: lists, stride, lens: &mut lens });
         }
         let mut octants = [Ready::default(); OCTANTS];
         for (octant, ready) in octants.iter_mut().enumerate() {

@@ -3,7 +3,7 @@
 use super::scratch::Waiting;
 use super::traveller::Way;
 use super::tree::{Node, WIDTH};
-use lanes::{ROW, SHARE, Simd, Task};
+use lanes::{Lists, ROW, SHARE, Simd, Task};
 
 /// Sorts the rays to the children that they meet, and puts these on the stack, the one that they enter first on top.
 pub(super) struct Visit<'a, W> {
@@ -60,7 +60,7 @@ impl<W: Way> Task for Visit<'_, W> {
                 }
                 s.store(sum, &mut sums[lane..]);
             }
-            s.distribute(&ids, &marks, after, stride, &mut lens);
+            s.distribute(&ids, &marks, &mut Lists { ids: after, stride, lens: &mut lens });
         }
         // The last first.
         let begin = stack.len();

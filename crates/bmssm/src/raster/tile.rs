@@ -237,12 +237,11 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                     *prepared |= 1 << group;
                     maps.geometry.prepare(s, first, common, rows);
                 }
-                let shared = Shared { common, rows };
                 count.tests(u64::from(bits.count_ones()));
                 while bits != 0 {
                     let slot = first + bits.trailing_zeros() as usize;
                     bits &= bits - 1;
-                    maps.geometry.packet_prepared(s, slot, shared, rays, &mut best);
+                    maps.geometry.packet_prepared(s, Shared { slot, common, rows }, rays, &mut best);
                 }
             }
             self.best[packet] = best;

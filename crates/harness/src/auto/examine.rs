@@ -134,11 +134,7 @@ mod tests {
     /// At corners of a distant sphere Möller and Trumbore's test is often wrong, and the exact one never.
     #[test]
     fn errors_are_found_and_judged() {
-        use scenes::rays::{RaysId, RaysSpec, generate};
-        let scene = scenes::load(&"bumps-1k@offset=1e5,0,0".parse().unwrap()).unwrap();
-        let tracer = registry::quick(&scene, KernelId::Exact);
-        let spec = RaysSpec { id: RaysId::LeakVertex, rows: 40, cols: 40, seed: 1 };
-        let rays = generate(&scene, &spec, tracer.as_ref()).unwrap();
+        let (scene, rays) = crate::testing::distant_corners();
         let batch = |query| Batch { rays: &rays, query };
         let batches = [batch(Query::Closest), batch(Query::Occluded)];
         let mut examiner = Examiner::new(&scene, &batches, 1000, Tolerance::VISIBLE);

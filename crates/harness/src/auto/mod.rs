@@ -161,11 +161,7 @@ mod tests {
 
     #[test]
     fn what_leaks_is_not_chosen_however_cheap() {
-        use scenes::rays::{RaysId, RaysSpec, generate};
-        let scene = scenes::load(&"bumps-1k@offset=1e5,0,0".parse().unwrap()).unwrap();
-        let tracer = registry::quick(&scene, KernelId::Exact);
-        let spec = RaysSpec { id: RaysId::LeakVertex, rows: 40, cols: 40, seed: 1 };
-        let rays = generate(&scene, &spec, tracer.as_ref()).unwrap();
+        let (scene, rays) = crate::testing::distant_corners();
         let batches = both(&rays);
         let mut decider = Decider::new(&scene, &batches);
         let choice = registry::parse("ssm:kernel=auto").unwrap();

@@ -2,8 +2,30 @@
 
 use super::{FORMAT, Record};
 use crate::output::write_whole;
+use serde::de::DeserializeOwned;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+/// A kind of record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// What they are records of.
+    pub of: &'static str,
+    /// What to name where such a record is asked for.
+    pub example: &'static str,
+    /// The form of today's.
+    pub format: u32,
+    /// The form of those that say none, if there were such.
+    pub unsaid: Option<u32>,
+}
+
+/// Records of measurements.
+const MEASURED: Kind = Kind {
+    of: "rayscale",
+    example: "a record.json that `rayscale measure` or `rayscale compare` wrote",
+    format: FORMAT,
+    unsaid: None,
+};
 
 /// Why there is no record to be had from a file.
 #[derive(Debug, thiserror::Error)]
@@ -17,18 +39,22 @@ pub enum RecordError {
         source: io::Error,
     },
     /// The file holds no record.
-    #[error("{}, line {}, column {}: not a record of rayscale: {source}", path.display(), source.line(), source.column())]
+    #[error("{}, line {}, column {}: not a record of {}: {source}", path.display(), source.line(), source.column(), kind.of)]
     Syntax {
         /// The file.
         path: PathBuf,
+        /// What it should be.
+        kind: Kind,
         /// What is wrong.
         source: serde_json::Error,
     },
     /// A record of a later form.
-    #[error("{}: a record of format {found}; this program reads up to format {FORMAT}", path.display())]
+    #[error("{}: a record of format {found}; this program reads up to format {}", path.display(), kind.format)]
     Format {
         /// The file.
         path: PathBuf,
+        /// What it should be.
+        kind: Kind,
         /// Its format.
         found: u64,
     },
@@ -39,17 +65,28 @@ pub enum RecordError {
 /// # Errors
 /// Files that can't be read, are no record, or are of a later form.
 pub fn read(path: &Path) -> Result<Record, RecordError> {
+    read_kind(path, MEASURED)
+}
+
+/// Reads a record of any kind.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_kind<T: DeserializeOwned>(path: &Path, kind: Kind) -> Result<T, RecordError> {
     let text =
         std::fs::read_to_string(path).map_err(|source| RecordError::Io { path: path.to_owned(), source })?;
-    let syntax = |source| RecordError::Syntax { path: path.to_owned(), source };
+    let syntax = |source| RecordError::Syntax { path: path.to_owned(), kind, source };
     // The format comes first: a later record may lack what this one needs.
     #[derive(serde::Deserialize)]
     struct Head {
-        format: u64,
+        format: Option<u64>,
     }
     let Head { format } = serde_json::from_str(&text).map_err(syntax)?;
-    if format > u64::from(FORMAT) {
-        return Err(RecordError::Format { path: path.to_owned(), found: format });
+    let Some(format) = format.or(kind.unsaid.map(u64::from)) else {
+        return Err(syntax(serde::de::Error::missing_field("format")));
+    };
+    if format > u64::from(kind.format) {
+        return Err(RecordError::Format { path: path.to_owned(), kind, found: format });
     }
     serde_json::from_str(&text).map_err(syntax)
 }

@@ -1,6 +1,6 @@
 //! Eight lanes of AVX2.
 
-use super::{Simd, Task};
+use super::{Simd, Task, registers};
 use std::arch::x86_64::*;
 
 /// Proof that AVX2 is present: only [`run`] makes one.
@@ -38,10 +38,13 @@ macro_rules! intrinsic {
 }
 
 impl Simd for Avx2 {
-    const LANES: usize = 8;
-    type F = __m256;
-    type M = __m256;
-    type U = __m256i;
+    registers! {
+        8 of __m256, __m256, __m256i;
+        splat _mm256_set1_ps; load _mm256_loadu_ps; store _mm256_storeu_ps;
+        floats add = _mm256_add_ps, sub = _mm256_sub_ps, mul = _mm256_mul_ps, div = _mm256_div_ps, min = _mm256_min_ps, max = _mm256_max_ps;
+        comparisons lt = _mm256_cmp_ps::<_CMP_LT_OQ>, le = _mm256_cmp_ps::<_CMP_LE_OQ>, eq = _mm256_cmp_ps::<_CMP_EQ_OQ>;
+        masks and = _mm256_and_ps, or = _mm256_or_ps;
+    }
 
     #[inline(always)]
     fn apart<T: Task>(self, task: T) -> T::Out {
@@ -55,68 +58,8 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    fn splat(self, v: f32) -> Self::F {
-        intrinsic!(_mm256_set1_ps(v))
-    }
-    #[inline(always)]
-    fn load(self, from: &[f32]) -> Self::F {
-        let from = &from[..8];
-        // SAFETY: the token proves the feature; the slice has 8 floats.
-        unsafe { _mm256_loadu_ps(from.as_ptr()) }
-    }
-    #[inline(always)]
-    fn store(self, v: Self::F, to: &mut [f32]) {
-        let to = &mut to[..8];
-        // SAFETY: the token proves the feature; the slice has 8 floats.
-        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), v) }
-    }
-    #[inline(always)]
-    fn add(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm256_add_ps(a, b))
-    }
-    #[inline(always)]
-    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm256_sub_ps(a, b))
-    }
-    #[inline(always)]
-    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm256_mul_ps(a, b))
-    }
-    #[inline(always)]
-    fn div(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm256_div_ps(a, b))
-    }
-    #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), a))
-    }
-    #[inline(always)]
-    fn min(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm256_min_ps(a, b))
-    }
-    #[inline(always)]
-    fn max(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm256_max_ps(a, b))
-    }
-    #[inline(always)]
-    fn lt(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b))
-    }
-    #[inline(always)]
-    fn le(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b))
-    }
-    #[inline(always)]
-    fn eq(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(_mm256_cmp_ps::<_CMP_EQ_OQ>(a, b))
-    }
-    #[inline(always)]
-    fn and(self, a: Self::M, b: Self::M) -> Self::M {
-        intrinsic!(_mm256_and_ps(a, b))
-    }
-    #[inline(always)]
-    fn or(self, a: Self::M, b: Self::M) -> Self::M {
-        intrinsic!(_mm256_or_ps(a, b))
     }
     #[inline(always)]
     fn select(self, m: Self::M, a: Self::F, b: Self::F) -> Self::F {

@@ -1,7 +1,7 @@
 //! Sixteen lanes of AVX-512.
 
 use super::path::{BESIDE, Hull, Path, SLICES};
-use super::{ROW, Row, SHARE, Simd, Task};
+use super::{Lists, ROW, Row, SHARE, Simd, Task, registers};
 use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
 
@@ -41,10 +41,13 @@ macro_rules! intrinsic {
 }
 
 impl Simd for Avx512 {
-    const LANES: usize = 16;
-    type F = __m512;
-    type M = __mmask16;
-    type U = __m512i;
+    registers! {
+        16 of __m512, __mmask16, __m512i;
+        splat _mm512_set1_ps; load _mm512_loadu_ps; store _mm512_storeu_ps;
+        floats add = _mm512_add_ps, sub = _mm512_sub_ps, mul = _mm512_mul_ps, div = _mm512_div_ps, min = _mm512_min_ps, max = _mm512_max_ps;
+        comparisons lt = _mm512_cmp_ps_mask::<_CMP_LT_OQ>, le = _mm512_cmp_ps_mask::<_CMP_LE_OQ>, eq = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
+        masks and = _kand_mask16, or = _kor_mask16;
+    }
 
     #[inline(always)]
     fn apart<T: Task>(self, task: T) -> T::Out {
@@ -60,68 +63,8 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
-    fn splat(self, v: f32) -> Self::F {
-        intrinsic!(_mm512_set1_ps(v))
-    }
-    #[inline(always)]
-    fn load(self, from: &[f32]) -> Self::F {
-        let from = &from[..16];
-        // SAFETY: the token proves the features; the slice has 16 floats.
-        unsafe { _mm512_loadu_ps(from.as_ptr()) }
-    }
-    #[inline(always)]
-    fn store(self, v: Self::F, to: &mut [f32]) {
-        let to = &mut to[..16];
-        // SAFETY: the token proves the features; the slice has 16 floats.
-        unsafe { _mm512_storeu_ps(to.as_mut_ptr(), v) }
-    }
-    #[inline(always)]
-    fn add(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm512_add_ps(a, b))
-    }
-    #[inline(always)]
-    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm512_sub_ps(a, b))
-    }
-    #[inline(always)]
-    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm512_mul_ps(a, b))
-    }
-    #[inline(always)]
-    fn div(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm512_div_ps(a, b))
-    }
-    #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(_mm512_abs_ps(a))
-    }
-    #[inline(always)]
-    fn min(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm512_min_ps(a, b))
-    }
-    #[inline(always)]
-    fn max(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(_mm512_max_ps(a, b))
-    }
-    #[inline(always)]
-    fn lt(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b))
-    }
-    #[inline(always)]
-    fn le(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b))
-    }
-    #[inline(always)]
-    fn eq(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(_mm512_cmp_ps_mask::<_CMP_EQ_OQ>(a, b))
-    }
-    #[inline(always)]
-    fn and(self, a: Self::M, b: Self::M) -> Self::M {
-        a & b
-    }
-    #[inline(always)]
-    fn or(self, a: Self::M, b: Self::M) -> Self::M {
-        a | b
     }
     #[inline(always)]
     fn select(self, m: Self::M, a: Self::F, b: Self::F) -> Self::F {
@@ -250,19 +193,13 @@ impl Simd for Avx512 {
         bits.count_ones() as usize
     }
     #[inline(always)]
-    fn distribute(
-        self,
-        ids: &[u16; SHARE],
-        marks: &[u16; SHARE],
-        lists: &mut [u16],
-        stride: usize,
-        lens: &mut [u32; ROW],
-    ) {
+    fn distribute(self, ids: &[u16; SHARE], marks: &[u16; SHARE], lists: &mut Lists) {
+        let Lists { ids: lists, stride, lens } = lists;
         // SAFETY: the token proves the features; both arrays have 32 integers.
         let (ids, marks) =
             unsafe { (_mm512_loadu_epi16(ids.as_ptr().cast()), _mm512_loadu_epi16(marks.as_ptr().cast())) };
         for (list, len) in lens.iter_mut().enumerate() {
-            let first = list * stride + *len as usize;
+            let first = list * *stride + *len as usize;
             let to = &mut lists[first..first + SHARE];
             // SAFETY: the token proves the features; the slice has 32 integers.
             unsafe {

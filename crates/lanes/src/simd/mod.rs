@@ -18,10 +18,15 @@ mod avx512;
 mod neon;
 pub mod path;
 mod portable;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod registers;
 mod scalar;
 
 pub use portable::Portable;
 pub use scalar::Scalar;
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use registers::registers;
 
 use accel::settings::one_of;
 
@@ -32,6 +37,17 @@ pub const ROW: usize = 16;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Row(pub [f32; ROW]);
+
+/// Lists of ids, one behind another.
+#[derive(Debug)]
+pub struct Lists<'a> {
+    /// List k from `k·stride` on.
+    pub ids: &'a mut [u16],
+    /// From one list to the next.
+    pub stride: usize,
+    /// How many ids each list holds.
+    pub lens: &'a mut [u32; ROW],
+}
 
 /// Ids that are distributed at once.
 pub const SHARE: usize = 32;
@@ -211,27 +227,19 @@ pub trait Simd: Copy + Send + Sync + 'static {
         count
     }
 
-    /// Appends each of the ids to the lists whose bits are set in its marks. List k holds `lens[k]` ids from `k·stride` on; what
-    /// comes after them may change as well.
+    /// Appends each of the ids to the lists whose bits are set in its marks. What comes after a list may change as well.
     ///
     /// # Panics
     /// If a list has no room for [`SHARE`] more.
     #[inline(always)]
-    fn distribute(
-        self,
-        ids: &[u16; SHARE],
-        marks: &[u16; SHARE],
-        lists: &mut [u16],
-        stride: usize,
-        lens: &mut [u32; ROW],
-    ) {
+    fn distribute(self, ids: &[u16; SHARE], marks: &[u16; SHARE], lists: &mut Lists) {
         for (id, marks) in ids.iter().zip(marks) {
             let mut marks = *marks;
             while marks != 0 {
                 let list = marks.trailing_zeros() as usize % ROW;
                 marks &= marks - 1;
-                lists[list * stride + lens[list] as usize] = *id;
-                lens[list] += 1;
+                lists.ids[list * lists.stride + lists.lens[list] as usize] = *id;
+                lists.lens[list] += 1;
             }
         }
     }
@@ -251,22 +259,24 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// The least lane, of numbers.
     #[inline(always)]
     fn least(self, v: Self::F) -> f32 {
-        let mut lanes = [f32::INFINITY; ROW];
-        self.store(v, &mut lanes);
-        lanes[..Self::LANES]
-            .iter()
-            .fold(f32::INFINITY, |least, lane| if *lane < least { *lane } else { least })
+        let lanes = stored(self, v, f32::INFINITY);
+        lanes.iter().fold(f32::INFINITY, |least, lane| if *lane < least { *lane } else { least })
     }
 
     /// The greatest lane, of numbers.
     #[inline(always)]
     fn most(self, v: Self::F) -> f32 {
-        let mut lanes = [f32::NEG_INFINITY; ROW];
-        self.store(v, &mut lanes);
-        lanes[..Self::LANES]
-            .iter()
-            .fold(f32::NEG_INFINITY, |most, lane| if *lane > most { *lane } else { most })
+        let lanes = stored(self, v, f32::NEG_INFINITY);
+        lanes.iter().fold(f32::NEG_INFINITY, |most, lane| if *lane > most { *lane } else { most })
     }
+}
+
+/// The lanes, with `beyond` behind them.
+#[inline(always)]
+fn stored<S: Simd>(s: S, v: S::F, beyond: f32) -> [f32; ROW] {
+    let mut lanes = [beyond; ROW];
+    s.store(v, &mut lanes);
+    lanes
 }
 
 /// Work that is compiled once for each instruction set.

@@ -1,6 +1,6 @@
 //! Four lanes of NEON, which every aarch64 processor has.
 
-use super::{Simd, Task};
+use super::{Simd, Task, registers};
 use std::arch::aarch64::*;
 
 /// Proof that NEON is present.
@@ -27,74 +27,17 @@ macro_rules! intrinsic {
 const LANE_BITS: [u32; 4] = [1, 2, 4, 8];
 
 impl Simd for Neon {
-    const LANES: usize = 4;
-    type F = float32x4_t;
-    type M = uint32x4_t;
-    type U = uint32x4_t;
+    registers! {
+        4 of float32x4_t, uint32x4_t, uint32x4_t;
+        splat vdupq_n_f32; load vld1q_f32; store vst1q_f32;
+        floats add = vaddq_f32, sub = vsubq_f32, mul = vmulq_f32, div = vdivq_f32, min = vminq_f32, max = vmaxq_f32;
+        comparisons lt = vcltq_f32, le = vcleq_f32, eq = vceqq_f32;
+        masks and = vandq_u32, or = vorrq_u32;
+    }
 
-    #[inline(always)]
-    fn splat(self, v: f32) -> Self::F {
-        intrinsic!(vdupq_n_f32(v))
-    }
-    #[inline(always)]
-    fn load(self, from: &[f32]) -> Self::F {
-        let from = &from[..4];
-        // SAFETY: NEON is always present; the slice has 4 floats.
-        unsafe { vld1q_f32(from.as_ptr()) }
-    }
-    #[inline(always)]
-    fn store(self, v: Self::F, to: &mut [f32]) {
-        let to = &mut to[..4];
-        // SAFETY: NEON is always present; the slice has 4 floats.
-        unsafe { vst1q_f32(to.as_mut_ptr(), v) }
-    }
-    #[inline(always)]
-    fn add(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(vaddq_f32(a, b))
-    }
-    #[inline(always)]
-    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(vsubq_f32(a, b))
-    }
-    #[inline(always)]
-    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(vmulq_f32(a, b))
-    }
-    #[inline(always)]
-    fn div(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(vdivq_f32(a, b))
-    }
     #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(vabsq_f32(a))
-    }
-    #[inline(always)]
-    fn min(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(vminq_f32(a, b))
-    }
-    #[inline(always)]
-    fn max(self, a: Self::F, b: Self::F) -> Self::F {
-        intrinsic!(vmaxq_f32(a, b))
-    }
-    #[inline(always)]
-    fn lt(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(vcltq_f32(a, b))
-    }
-    #[inline(always)]
-    fn le(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(vcleq_f32(a, b))
-    }
-    #[inline(always)]
-    fn eq(self, a: Self::F, b: Self::F) -> Self::M {
-        intrinsic!(vceqq_f32(a, b))
-    }
-    #[inline(always)]
-    fn and(self, a: Self::M, b: Self::M) -> Self::M {
-        intrinsic!(vandq_u32(a, b))
-    }
-    #[inline(always)]
-    fn or(self, a: Self::M, b: Self::M) -> Self::M {
-        intrinsic!(vorrq_u32(a, b))
     }
     #[inline(always)]
     fn select(self, m: Self::M, a: Self::F, b: Self::F) -> Self::F {

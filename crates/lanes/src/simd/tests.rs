@@ -100,7 +100,7 @@ impl Task for Sorted {
         for round in 0..2u16 {
             let ids = std::array::from_fn(|i| 1000 * round + i as u16);
             let marks = std::array::from_fn(|i| (self.0 >> (i as u16 % 7 * 5 + round)) as u16);
-            s.distribute(&ids, &marks, &mut lists, STRIDE, &mut lens);
+            s.distribute(&ids, &marks, &mut Lists { ids: &mut lists, stride: STRIDE, lens: &mut lens });
         }
         let list = |k: usize| lists[k * STRIDE..k * STRIDE + lens[k] as usize].to_vec();
         (numbers[..len].to_vec(), (0..ROW).map(list).collect())

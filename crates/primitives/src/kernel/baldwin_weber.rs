@@ -3,7 +3,7 @@
 //! it to the unit triangle, so that a test is a few products and one division.
 
 use super::packed::{load3, splat_row3};
-use super::{Corners, Floats, Immediate, Kernel, KernelId, Packed, Unprepared, dot3};
+use super::{Corners, Kernel, KernelId, Packed, dot3};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes};
 use lanes::{Row, Simd};
@@ -20,11 +20,8 @@ type MapRow<S> = (Vec3Lanes<S>, <S as Simd>::F);
 impl Kernel for BaldwinWeber {
     const ID: KernelId = KernelId::BaldwinWeber;
     const ROWS: usize = 12;
-    type Preparation = Unprepared;
-    type Search = Immediate;
-    type Storage = Floats;
+    crate::plain_kernel!();
     type One = Ray;
-    type Many<S: Simd> = Packet<S>;
 
     fn pack(corners: &Corners, group: &mut [Row], lane: usize) {
         for (row, value) in group.iter_mut().zip(map_of(corners).as_flattened()) {
@@ -35,16 +32,6 @@ impl Kernel for BaldwinWeber {
     #[inline(always)]
     fn corners(_: Packed<'_>) -> Option<Corners> {
         None
-    }
-
-    #[inline(always)]
-    fn one(ray: &Ray) -> Ray {
-        *ray
-    }
-
-    #[inline(always)]
-    fn many<S: Simd>(_: S, rays: &Packet<S>) -> Packet<S> {
-        *rays
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 //! What is left of a ray's cost is the structure's, with six values an object instead of nine.
 
 use super::packed::{load3, splat_row3};
-use super::{Corners, Floats, Immediate, Kernel, KernelId, Packed, Unprepared};
+use super::{Corners, Kernel, KernelId, Packed, RayForm};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use lanes::{Row, Scalar, Simd};
@@ -61,15 +61,31 @@ fn test<S: Simd>(s: S, ray: &SlabsLanes<S>, [low, high]: [Vec3Lanes<S>; 2], t_ma
     Lanes { hit: s.and(met, in_range), t, u: zero, v: zero }
 }
 
+impl RayForm for Slabs {
+    type Many<S: Simd> = SlabsLanes<S>;
+
+    #[inline(always)]
+    fn one(ray: &Ray) -> Self {
+        let inverse = inverse3(Scalar, ray.direction.to_array());
+        let t_min = if ray.direction.is_finite() { ray.t_min } else { f32::NAN };
+        Slabs { origin: ray.origin, inverse: Vec3::from_array(inverse), t_min }
+    }
+
+    #[inline(always)]
+    fn many<S: Simd>(s: S, rays: &Packet<S>) -> SlabsLanes<S> {
+        let [x, y, z] = rays.direction.map(|component| s.abs(component));
+        let finite = s.lt(s.max(s.max(x, y), z), s.splat(f32::INFINITY));
+        let t_min = s.select(finite, rays.t_min, s.splat(f32::NAN));
+        SlabsLanes { origin: rays.origin, inverse: inverse3(s, rays.direction), t_min }
+    }
+}
+
 impl Kernel for BoundingBox {
     const ID: KernelId = KernelId::BoundingBox;
     /// The least and the greatest corner of the box.
     const ROWS: usize = 6;
-    type Preparation = Unprepared;
-    type Search = Immediate;
-    type Storage = Floats;
+    crate::plain_kernel!();
     type One = Slabs;
-    type Many<S: Simd> = SlabsLanes<S>;
 
     #[inline(always)]
     fn pack([a, b, c]: &Corners, group: &mut [Row], lane: usize) {
@@ -85,21 +101,6 @@ impl Kernel for BoundingBox {
         let Packed { group, lane } = packed;
         let at = |row: usize| Vec3::new(group[row].0[lane], group[row + 1].0[lane], group[row + 2].0[lane]);
         Some([at(0), at(3), at(0)])
-    }
-
-    #[inline(always)]
-    fn one(ray: &Ray) -> Slabs {
-        let inverse = inverse3(Scalar, ray.direction.to_array());
-        let t_min = if ray.direction.is_finite() { ray.t_min } else { f32::NAN };
-        Slabs { origin: ray.origin, inverse: Vec3::from_array(inverse), t_min }
-    }
-
-    #[inline(always)]
-    fn many<S: Simd>(s: S, rays: &Packet<S>) -> SlabsLanes<S> {
-        let [x, y, z] = rays.direction.map(|component| s.abs(component));
-        let finite = s.lt(s.max(s.max(x, y), z), s.splat(f32::INFINITY));
-        let t_min = s.select(finite, rays.t_min, s.splat(f32::NAN));
-        SlabsLanes { origin: rays.origin, inverse: inverse3(s, rays.direction), t_min }
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The capability of telling what is certain before a test is decided.
 
-use super::{Packed, Permuted, Prepared};
+use super::{Many, Packed, Permuted, Prepared};
 use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
 use lanes::{Row, Simd};
 
@@ -18,25 +18,25 @@ pub trait Deferral: Permuted {
     -> Lanes<S>;
 
     /// What can be told of [`Kernel::rays`].
-    fn bounds<S: Simd>(s: S, rays: &Self::Many<S>, packed: Packed<'_>, t_max: S::F) -> Bounds<S>;
+    fn bounds<S: Simd>(s: S, rays: &Many<Self, S>, packed: Packed<'_>, t_max: S::F) -> Bounds<S>;
 
     /// What can be told of each ray and the triangle in its own lane, of the lanes `wanted`.
     fn bounds_each<S: Simd>(
         s: S,
-        rays: &Self::Many<S>,
+        rays: &Many<Self, S>,
         corners: [Vec3Lanes<S>; 3],
         wanted: u32,
         t_max: S::F,
     ) -> Bounds<S>;
 
     /// [`Deferral::bounds`] of a prepared triangle.
-    fn bounds_prepared<S: Simd>(s: S, rays: &Self::Many<S>, prepared: Prepared<'_>, t_max: S::F)
+    fn bounds_prepared<S: Simd>(s: S, rays: &Many<Self, S>, prepared: Prepared<'_>, t_max: S::F)
     -> Bounds<S>;
 
     /// [`Kernel::rays`] for the rays `undecided` only; the others hit nothing.
     fn decide<S: Simd>(
         s: S,
-        rays: &Self::Many<S>,
+        rays: &Many<Self, S>,
         packed: Packed<'_>,
         undecided: u32,
         t_max: S::F,

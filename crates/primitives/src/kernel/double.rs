@@ -1,7 +1,7 @@
 //! Möller and Trumbore's test in `f64`: the cheap way to be right nearly always.
 
 use super::wide::{OneRay, OneTriangle, Pairs, Products};
-use super::{Floats, Immediate, Kernel, KernelId, Packed, Unprepared};
+use super::{Kernel, KernelId, Packed, RayForm};
 use accel::Ray;
 use lanes::packet::RayRows;
 use lanes::packet::{Lanes, Packet};
@@ -12,6 +12,10 @@ use lanes::{ROW, Simd};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Double;
 
+/// A ray that is read from memory, as [`Rays`] are.
+#[derive(Clone, Copy, Debug)]
+pub struct InMemory(Ray);
+
 /// Rays in lanes and in memory.
 #[derive(Clone, Copy)]
 pub struct Rays<S: Simd> {
@@ -19,27 +23,34 @@ pub struct Rays<S: Simd> {
     rows: RayRows,
 }
 
-impl Kernel for Double {
-    const ID: KernelId = KernelId::Double;
-    const NORMALISED: bool = false;
-    type Preparation = Unprepared;
-    type Search = Immediate;
-    type Storage = Floats;
-    type One = Ray;
+impl RayForm for InMemory {
     type Many<S: Simd> = Rays<S>;
 
     #[inline(always)]
-    fn one(ray: &Ray) -> Ray {
-        *ray
+    fn one(ray: &Ray) -> Self {
+        Self(*ray)
     }
 
     #[inline(always)]
     fn many<S: Simd>(s: S, rays: &Packet<S>) -> Rays<S> {
         Rays { t_min: rays.t_min, rows: RayRows::of(s, rays) }
     }
+}
+
+impl Kernel for Double {
+    const ID: KernelId = KernelId::Double;
+    const NORMALISED: bool = false;
+    crate::plain_kernel!();
+    type One = InMemory;
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(
+        s: S,
+        InMemory(ray): &InMemory,
+        packed: Packed<'_>,
+        _: u32,
+        t_max: f32,
+    ) -> Lanes<S> {
         test(s, &OneRay::new(ray, packed, S::LANES), s.splat(ray.t_min), s.splat(t_max))
     }
 

@@ -7,7 +7,7 @@
 //! A new kernel is a file with the few functions of [`Kernel`], and a type for each thing that it may do in another way than
 //! most: compute once what is the same for all rays of an image ([`Preparation`]), test rays and triangles in pairs
 //! ([`Paired`]), let hits that are certain wait until the nearest is known ([`Deferral`]), and keep corners in fewer bits
-//! ([`Storage`]).
+//! ([`Storage`]). One that does none of this says [`plain_kernel!`](crate::plain_kernel).
 
 mod baldwin_weber;
 mod bounding_box;
@@ -22,6 +22,7 @@ mod paired;
 mod preparation;
 mod quantisation_grid;
 mod quantised;
+mod ray_form;
 mod storage;
 mod watertight;
 // The exact kernel alone looks at all of the products.
@@ -41,6 +42,7 @@ pub use paired::{InPairs, Paired, Permuted};
 pub use preparation::{Preparation, Prepared, Unprepared};
 pub use quantisation_grid::QuantisationGrid;
 pub use quantised::Quantised;
+pub use ray_form::RayForm;
 pub use storage::{Floats, Storage};
 pub use watertight::Watertight;
 
@@ -65,10 +67,8 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     type Search;
     /// How packed triangles are kept: [`Floats`] as packed here, or [`QuantisationGrid`].
     type Storage: Storage;
-    /// What is computed once for a ray.
-    type One: Copy + Send + Sync;
-    /// What is computed once for `LANES` rays.
-    type Many<S: Simd>: Copy;
+    /// What is computed once for a ray: nothing, if it is [`Ray`] itself.
+    type One: RayForm;
 
     /// Writes a triangle to lane `lane` of a group of [`Kernel::ROWS`] rows.
     #[inline(always)]
@@ -83,17 +83,23 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     }
 
     /// Prepares one ray.
-    fn one(ray: &Ray) -> Self::One;
+    #[inline(always)]
+    fn one(ray: &Ray) -> Self::One {
+        Self::One::one(ray)
+    }
 
     /// Prepares `LANES` rays.
-    fn many<S: Simd>(s: S, rays: &Packet<S>) -> Self::Many<S>;
+    #[inline(always)]
+    fn many<S: Simd>(s: S, rays: &Packet<S>) -> Many<Self, S> {
+        Self::One::many(s, rays)
+    }
 
     /// One ray against `LANES` triangles from a lane on, with t up to `t_max`. Nobody looks at the answers of other
     /// lanes than those whose bits are `wanted`.
     fn triangles<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S>;
 
     /// `LANES` rays against one triangle, with t up to `t_max`.
-    fn rays<S: Simd>(s: S, rays: &Self::Many<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S>;
+    fn rays<S: Simd>(s: S, rays: &Many<Self, S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S>;
 
     /// The order along the ray of the hits of two triangles that are reported at the same t; where equal, the lower
     /// number comes first.
@@ -114,6 +120,19 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
             Self::triangles(Scalar, ray, Packed::new(&group[..Self::ROWS], 0), 1, t_max);
         hit.then_some(Surface { t, u, v })
     }
+}
+
+/// `LANES` rays as kernel `K` wants them.
+pub type Many<K, S> = <<K as Kernel>::One as RayForm>::Many<S>;
+
+/// In an `impl` of [`Kernel`]: nothing is computed beforehand, tests are decided at once, corners are kept in `f32`.
+#[macro_export]
+macro_rules! plain_kernel {
+    () => {
+        type Preparation = $crate::kernel::Unprepared;
+        type Search = $crate::kernel::Immediate;
+        type Storage = $crate::kernel::Floats;
+    };
 }
 
 /// Every test is decided at once.

@@ -21,17 +21,6 @@ impl Kernel for MollerTrumbore {
     type Search = InPairs;
     type Storage = Floats;
     type One = Ray;
-    type Many<S: Simd> = Packet<S>;
-
-    #[inline(always)]
-    fn one(ray: &Ray) -> Ray {
-        *ray
-    }
-
-    #[inline(always)]
-    fn many<S: Simd>(_: S, rays: &Packet<S>) -> Packet<S> {
-        *rays
-    }
 
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {

@@ -1,6 +1,6 @@
 //! The capability of computing beforehand what rays with a point or a direction in common share.
 
-use super::{Kernel, Packed};
+use super::{Kernel, Many, Packed};
 use accel::Common;
 use lanes::packet::Lanes;
 use lanes::{Row, Simd};
@@ -26,7 +26,7 @@ pub trait Preparation<K: Kernel>: 'static {
 
     /// [`Kernel::rays`] for a prepared triangle: the same operations on the same operands, those that don't depend on
     /// the ray done before.
-    fn rays_prepared<S: Simd>(s: S, rays: &K::Many<S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S>;
+    fn rays_prepared<S: Simd>(s: S, rays: &Many<K, S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S>;
 }
 
 /// Nothing is computed beforehand.
@@ -40,7 +40,7 @@ impl<K: Kernel> Preparation<K> for Unprepared {
     fn prepare<S: Simd>(_: S, _: &Common, _: Packed<'_>, _: &mut [Row]) {}
 
     #[inline(always)]
-    fn rays_prepared<S: Simd>(s: S, rays: &K::Many<S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S> {
+    fn rays_prepared<S: Simd>(s: S, rays: &Many<K, S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S> {
         K::rays(s, rays, prepared.packed, t_max)
     }
 }

@@ -17,18 +17,7 @@ impl Kernel for Quantised {
     type Preparation = Self;
     type Search = Immediate;
     type Storage = QuantisationGrid;
-    type One = <Test as Kernel>::One;
-    type Many<S: Simd> = <Test as Kernel>::Many<S>;
-
-    #[inline(always)]
-    fn one(ray: &Ray) -> Ray {
-        Test::one(ray)
-    }
-
-    #[inline(always)]
-    fn many<S: Simd>(s: S, rays: &Packet<S>) -> Packet<S> {
-        Test::many(s, rays)
-    }
+    type One = Ray;
 
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {

@@ -2,7 +2,9 @@
 //! Computer Graphics Techniques 2(1), 2013: the ray is sheared onto an axis, edge functions
 //! are evaluated in the plane, and a zero edge function is evaluated again in `f64`.
 
-use super::{Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, Unprepared, det2, dot3, sub3};
+use super::{
+    Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, RayForm, Unprepared, det2, dot3, sub3,
+};
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
 use lanes::{ROW, Simd};
@@ -81,16 +83,11 @@ fn shear<S: Simd>(s: S, [x, y, z]: Vec3Lanes<S>) -> Vec3Lanes<S> {
     [s.div(x, z), s.div(y, z), s.div(s.splat(1.0), z)]
 }
 
-impl Kernel for Watertight {
-    const ID: KernelId = KernelId::Watertight;
-    type Preparation = Unprepared;
-    type Search = InPairs;
-    type Storage = Floats;
-    type One = Sheared;
+impl RayForm for Sheared {
     type Many<S: Simd> = ShearedLanes<S>;
 
     #[inline(always)]
-    fn one(ray: &Ray) -> Sheared {
+    fn one(ray: &Ray) -> Self {
         let size = ray.direction.abs();
         let dominant = if size.x >= size.y && size.x >= size.z {
             0
@@ -123,6 +120,14 @@ impl Kernel for Watertight {
         let direction = dominant.rotate(s, rays.direction);
         ShearedLanes { origin: rays.origin, t_min: rays.t_min, dominant, shear: shear(s, direction) }
     }
+}
+
+impl Kernel for Watertight {
+    const ID: KernelId = KernelId::Watertight;
+    type Preparation = Unprepared;
+    type Search = InPairs;
+    type Storage = Floats;
+    type One = Sheared;
 
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Sheared, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {

@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::frame::Limits;
 use super::pairs::{Group, limits};
 use super::pending::{PendingHit, defer, lower_bound, pending};
-use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search};
+use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search, Slot};
 use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Deferral, Deferred, Floats, Packed};
 use accel::{Nearest, Objects, Ray, Surface};
@@ -20,13 +20,8 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
 
     /// Lets the nearest of the certain hits wait, and decides what may come before it.
     #[inline(always)]
-    fn closest<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        mut set: Candidates,
-        ray: &OneRay<K>,
-        best: &mut Nearest,
-    ) {
+    fn closest<S: Simd>(s: S, mut set: Candidates<K>, ray: &OneRay<K>, best: &mut Nearest) {
+        let blocks = set.blocks;
         while let Some(Next { slot: first, wanted }) = set.next::<S>() {
             let bounds = K::bounds_one(s, &ray.prepared, blocks.packed(first), wanted, best.t);
             let mut undecided = s.bits(bounds.undecided) & wanted;
@@ -55,13 +50,8 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
 
     /// A certain hit needs no decision.
     #[inline(always)]
-    fn any<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        mut set: Candidates,
-        ray: &OneRay<K>,
-        t_max: f32,
-    ) -> bool {
+    fn any<S: Simd>(s: S, mut set: Candidates<K>, ray: &OneRay<K>, t_max: f32) -> bool {
+        let blocks = set.blocks;
         while let Some(Next { slot: first, wanted }) = set.next::<S>() {
             let bounds = K::bounds_one(s, &ray.prepared, blocks.packed(first), wanted, t_max);
             let mut undecided = s.bits(bounds.undecided) & wanted;
@@ -131,14 +121,8 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     }
 
     #[inline(always)]
-    fn in_place<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        mut set: Candidates,
-        ray: &Ray,
-        any: bool,
-        best: &mut Nearest,
-    ) {
+    fn in_place<S: Simd>(s: S, mut set: Candidates<K>, ray: &Ray, any: bool, best: &mut Nearest) {
+        let blocks = set.blocks;
         let many = K::many(s, &blocks.triangles.frame.packet(s, &Packet::splat(s, ray)));
         while set.mask != 0 {
             let (chosen, len) = blocks.next_in_place::<S>(&mut set);
@@ -193,13 +177,8 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     }
 
     #[inline(always)]
-    fn packet<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        slot: usize,
-        rays: &Rays<K, S>,
-        best: &mut NearestPacket<S>,
-    ) {
+    fn packet<S: Simd>(s: S, one: Slot<K>, rays: &Rays<K, S>, best: &mut NearestPacket<S>) {
+        let Slot { blocks, slot } = one;
         let bounds = K::bounds(s, &rays.prepared, blocks.packed(slot), best.t);
         blocks.defer(s, slot, rays, &bounds, best);
     }
@@ -209,25 +188,14 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     fn limits<S: Simd>(_: &TriangleBlocks<K>, _: S, _: usize, _: Packed<'_>, _: &mut [Row]) {}
 
     #[inline(always)]
-    fn packet_prepared<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        one: PreparedSlot<'_>,
-        rays: &Rays<K, S>,
-        best: &mut NearestPacket<S>,
-    ) {
+    fn packet_prepared<S: Simd>(s: S, one: PreparedSlot<K>, rays: &Rays<K, S>, best: &mut NearestPacket<S>) {
         let bounds = K::bounds_prepared(s, &rays.prepared, one.prepared, best.t);
-        blocks.defer(s, one.slot, rays, &bounds, best);
+        one.at.blocks.defer(s, one.at.slot, rays, &bounds, best);
     }
 
     #[inline(always)]
-    fn resolve_packet<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        rays: &Rays<K, S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        blocks.resolve_lanes(s, &rays.rays, u32::MAX, best);
+    fn resolve_packet<S: Simd>(of: &TriangleBlocks<K>, s: S, rays: &Rays<K, S>, best: &mut NearestPacket<S>) {
+        of.resolve_lanes(s, &rays.rays, u32::MAX, best);
     }
 }
 

@@ -17,7 +17,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     pub(super) fn visit<S: Simd>(
         &self,
         s: S,
-        mut set: Candidates,
+        mut set: Candidates<K>,
         ray: &OneRay<K>,
         mut t_max: f32,
         mut found: impl FnMut(u32, Surface) -> Option<f32>,

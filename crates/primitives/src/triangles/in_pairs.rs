@@ -45,14 +45,8 @@ impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
     }
 
     #[inline(always)]
-    fn in_place<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        mut set: Candidates,
-        ray: &Ray,
-        any: bool,
-        best: &mut Nearest,
-    ) {
+    fn in_place<S: Simd>(s: S, mut set: Candidates<K>, ray: &Ray, any: bool, best: &mut Nearest) {
+        let blocks = set.blocks;
         let frame = &blocks.triangles.frame;
         let many = K::many(s, &frame.packet(s, &Packet::splat(s, ray)));
         while set.mask != 0 {

@@ -1,8 +1,8 @@
 //! Triangles that are tested where the scene has them: blocks that copy nothing but numbers.
 
+use super::TriangleBlocks;
 use super::frame::Limits;
-use super::search::{Search, TriangleKernel};
-use super::{TriangleBlocks, TrianglePacket};
+use super::search::{Rays, Search, TriangleKernel};
 use crate::kernel::Packed;
 use accel::{Nearest, Objects};
 use lanes::packet::{NearestPacket, Packet};
@@ -18,7 +18,7 @@ impl<K: TriangleKernel> TriangleBlocks<'_, K> {
         &self,
         s: S,
         slot: usize,
-        rays: &TrianglePacket<S, K::Many<S>>,
+        rays: &Rays<K, S>,
         best: &mut NearestPacket<S>,
     ) {
         let object = self.ids.get(slot);

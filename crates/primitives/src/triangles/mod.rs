@@ -24,7 +24,7 @@ use frame::Frame;
 use lanes::packet::{NearestPacket, Packet, Pairs, Vec3Lanes};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared};
 use lanes::{ROW, Row, Simd};
-use search::{Candidates, PreparedSlot, Search};
+use search::{Candidates, OneRay, PreparedSlot, Rays, Search, Slot};
 use std::marker::PhantomData;
 
 /// The triangles of a mesh, tested by kernel `K`.
@@ -167,7 +167,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
 
     /// Prepares `LANES` rays.
     #[inline(always)]
-    fn prepare_many<S: Simd>(&self, s: S, rays: &Packet<S>) -> TrianglePacket<S, K::Many<S>> {
+    fn prepare_many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Rays<K, S> {
         let frame = &self.triangles.frame;
         let near = s.splat(frame.near);
         let mut all = s.mask(u32::MAX);
@@ -237,8 +237,8 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
 }
 
 impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
-    type One = TriangleRay<K::One>;
-    type Many<S: Simd> = TrianglePacket<S, K::Many<S>>;
+    type One = OneRay<K>;
+    type Many<S: Simd> = Rays<K, S>;
 
     fn bytes(&self) -> usize {
         accel::vec_bytes(&self.units) + self.ids.bytes()
@@ -268,19 +268,19 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
         if self.in_place {
-            return K::Search::in_place(self, s, Candidates { block, mask }, &ray.ray, false, best);
+            return K::Search::in_place(s, Candidates { blocks: self, block, mask }, &ray.ray, false, best);
         }
-        K::Search::closest(self, s, Candidates { block, mask }, ray, best);
+        K::Search::closest(s, Candidates { blocks: self, block, mask }, ray, best);
     }
 
     #[inline(always)]
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         if self.in_place {
             let mut best = Nearest::new(t_max);
-            K::Search::in_place(self, s, Candidates { block, mask }, &ray.ray, true, &mut best);
+            K::Search::in_place(s, Candidates { blocks: self, block, mask }, &ray.ray, true, &mut best);
             return best.object != Nearest::NONE;
         }
-        K::Search::any(self, s, Candidates { block, mask }, ray, t_max)
+        K::Search::any(s, Candidates { blocks: self, block, mask }, ray, t_max)
     }
 
     #[inline(always)]
@@ -308,7 +308,7 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
         if self.in_place {
             return self.packet_in_place(s, slot, rays, best);
         }
-        K::Search::packet(self, s, slot, rays, best);
+        K::Search::packet(s, Slot { blocks: self, slot }, rays, best);
     }
 
     const PREPARED_ROWS: usize = K::Preparation::ROWS + K::Search::LIMIT_ROWS + K::Storage::UNPACKED_ROWS;
@@ -325,20 +325,15 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     }
 
     #[inline(always)]
-    fn packet_prepared<S: Simd>(
-        &self,
-        s: S,
-        slot: usize,
-        shared: Shared<'_>,
-        rays: &Self::Many<S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        let (rows, limits) = shared.rows[..Self::PREPARED_ROWS].split_at(K::Preparation::ROWS);
+    fn packet_prepared<S: Simd>(&self, s: S, at: Shared, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
+        let Shared { slot, common, rows } = at;
+        let (rows, limits) = rows[..Self::PREPARED_ROWS].split_at(K::Preparation::ROWS);
         let (limits, unpacked) = limits.split_at(K::Search::LIMIT_ROWS);
         let packed = Packed::new(K::Storage::kept(self.units(slot)).unwrap_or(unpacked), slot % ROW);
-        let common = &self.triangles.frame.common(shared.common);
-        let one = PreparedSlot { slot, prepared: Prepared { common, packed, rows }, limits };
-        K::Search::packet_prepared(self, s, one, rays, best);
+        let common = &self.triangles.frame.common(common);
+        let at = Slot { blocks: self, slot };
+        let one = PreparedSlot { at, prepared: Prepared { common, packed, rows }, limits };
+        K::Search::packet_prepared(s, one, rays, best);
     }
 
     #[inline(always)]

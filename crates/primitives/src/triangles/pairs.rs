@@ -120,7 +120,10 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
 
     /// Up to `LANES` candidates taken off a mask, by number, and how many they are.
     #[inline(always)]
-    pub(super) fn next_in_place<S: Simd>(&self, set: &mut super::search::Candidates) -> ([u32; ROW], usize) {
+    pub(super) fn next_in_place<S: Simd>(
+        &self,
+        set: &mut super::search::Candidates<K>,
+    ) -> ([u32; ROW], usize) {
         let (mut chosen, mut len) = ([0; ROW], 0);
         while set.mask != 0 && len < S::LANES {
             let object = self.ids.get(set.block * BLOCK + set.mask.trailing_zeros() as usize);

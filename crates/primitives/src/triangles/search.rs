@@ -3,7 +3,7 @@
 use super::frame::{LIMIT_ROWS, Limits};
 use super::{CORNER_ROWS, Scratch, TriangleBlocks, TrianglePacket, TriangleRay};
 use crate::Kernel;
-use crate::kernel::{Packed, Preparation, Prepared};
+use crate::kernel::{Many, Packed, Preparation, Prepared};
 use accel::{Nearest, Objects, Ray};
 use lanes::packet::{Lanes, NearestPacket, Packet, Pairs};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, ROW, Row, Simd};
@@ -17,12 +17,14 @@ impl<K: Kernel<Search: Search<K>>> TriangleKernel for K {}
 pub type OneRay<K> = TriangleRay<<K as Kernel>::One>;
 
 /// A packet of rays prepared for kernel `K`.
-pub type Rays<K, S> = TrianglePacket<S, <K as Kernel>::Many<S>>;
+pub type Rays<K, S> = TrianglePacket<S, Many<K, S>>;
 
 /// Triangles of one block.
-#[derive(Clone, Copy, Debug)]
-pub struct Candidates {
-    /// The block.
+#[derive(Debug)]
+pub struct Candidates<'a, K: Kernel> {
+    /// All blocks.
+    pub blocks: &'a TriangleBlocks<'a, K>,
+    /// Which one.
     pub block: usize,
     /// A bit for each of them.
     pub mask: u64,
@@ -36,7 +38,7 @@ pub(super) struct Next {
     pub wanted: u32,
 }
 
-impl Candidates {
+impl<K: Kernel> Candidates<'_, K> {
     /// Takes the next ones off.
     #[inline(always)]
     pub(super) fn next<S: Simd>(&mut self) -> Option<Next> {
@@ -62,13 +64,8 @@ pub trait Search<K: Kernel>: 'static {
 
     /// [`Blocks::closest`]
     #[inline(always)]
-    fn closest<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        set: Candidates,
-        ray: &OneRay<K>,
-        best: &mut Nearest,
-    ) {
+    fn closest<S: Simd>(s: S, set: Candidates<K>, ray: &OneRay<K>, best: &mut Nearest) {
+        let blocks = set.blocks;
         blocks.visit(s, set, ray, best.t, |object, surface| {
             blocks.offer_one(ray, object, surface, best);
             Some(best.t)
@@ -77,7 +74,8 @@ pub trait Search<K: Kernel>: 'static {
 
     /// [`Blocks::any`]
     #[inline(always)]
-    fn any<S: Simd>(blocks: &TriangleBlocks<K>, s: S, set: Candidates, ray: &OneRay<K>, t_max: f32) -> bool {
+    fn any<S: Simd>(s: S, set: Candidates<K>, ray: &OneRay<K>, t_max: f32) -> bool {
+        let blocks = set.blocks;
         let mut any = false;
         blocks.visit(s, set, ray, t_max, |_, _| {
             any = true;
@@ -123,14 +121,8 @@ pub trait Search<K: Kernel>: 'static {
 
     /// [`Blocks::closest`], or [`Blocks::any`], where nothing is packed but numbers.
     #[inline(always)]
-    fn in_place<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        set: Candidates,
-        ray: &Ray,
-        any: bool,
-        best: &mut Nearest,
-    ) {
+    fn in_place<S: Simd>(s: S, set: Candidates<K>, ray: &Ray, any: bool, best: &mut Nearest) {
+        let blocks = set.blocks;
         let _ = s;
         let mut mask = set.mask;
         while mask != 0 && !(any && best.object != Nearest::NONE) {
@@ -144,13 +136,8 @@ pub trait Search<K: Kernel>: 'static {
 
     /// [`Blocks::packet`]
     #[inline(always)]
-    fn packet<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        slot: usize,
-        rays: &Rays<K, S>,
-        best: &mut NearestPacket<S>,
-    ) {
+    fn packet<S: Simd>(s: S, one: Slot<K>, rays: &Rays<K, S>, best: &mut NearestPacket<S>) {
+        let Slot { blocks, slot } = one;
         let mut scratch = Scratch::EMPTY;
         let packed = blocks.unpacked(s, slot, &mut scratch.0);
         let lanes = K::rays(s, &rays.prepared, packed, best.t);
@@ -170,14 +157,8 @@ pub trait Search<K: Kernel>: 'static {
 
     /// [`Blocks::packet_prepared`]
     #[inline(always)]
-    fn packet_prepared<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        one: PreparedSlot<'_>,
-        rays: &Rays<K, S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        let PreparedSlot { slot, prepared, limits } = one;
+    fn packet_prepared<S: Simd>(s: S, one: PreparedSlot<K>, rays: &Rays<K, S>, best: &mut NearestPacket<S>) {
+        let PreparedSlot { at: Slot { blocks, slot }, prepared, limits } = one;
         let lanes = K::Preparation::rays_prepared(s, &rays.prepared, prepared, best.t);
         if s.bits(lanes.hit) != 0 {
             blocks.offer(s, slot, rays, &Limits::load(limits, slot % ROW), lanes, best);
@@ -186,21 +167,25 @@ pub trait Search<K: Kernel>: 'static {
 
     /// [`Blocks::resolve_packet`]
     #[inline(always)]
-    fn resolve_packet<S: Simd>(
-        blocks: &TriangleBlocks<K>,
-        s: S,
-        rays: &Rays<K, S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        let _ = (blocks, s, rays, best);
+    fn resolve_packet<S: Simd>(of: &TriangleBlocks<K>, s: S, rays: &Rays<K, S>, best: &mut NearestPacket<S>) {
+        let _ = (of, s, rays, best);
     }
 }
 
-/// A triangle with all that was computed beforehand.
-#[derive(Clone, Copy, Debug)]
-pub struct PreparedSlot<'a> {
-    /// The slot.
+/// A packed triangle.
+#[derive(Debug)]
+pub struct Slot<'a, K: Kernel> {
+    /// All blocks.
+    pub blocks: &'a TriangleBlocks<'a, K>,
+    /// Its place in them.
     pub slot: usize,
+}
+
+/// A triangle with all that was computed beforehand.
+#[derive(Debug)]
+pub struct PreparedSlot<'a, K: Kernel> {
+    /// The triangle.
+    pub at: Slot<'a, K>,
     /// What the kernel prepared.
     pub prepared: Prepared<'a>,
     /// What [`Search::limits`] wrote.

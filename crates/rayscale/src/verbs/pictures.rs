@@ -84,18 +84,10 @@ fn enlarged(scene: &str, structure: &str, compared: &Compared) -> Option<Picture
     let (x, y) = compared.worst(side)?;
     let wrong = &compared.wrong;
     let caption = format!(
-        "{structure} on {scene}: of {} pixels {} holes, {} phantoms, {} displaced, {} on another object in the same place; shading off by \
-         {} of 255 at most, {} on average, depth by {} of the extent at most, {} on average. Shown: {side} × {side} pixels from \
-         column {x}, row {y}, {times} times as large",
+        "{structure} on {scene}: of {} pixels {}; {}. Shown: {side} × {side} pixels from column {x}, row {y}, {times} times as large",
         units::count(wrong.counts.rays),
-        wrong.counts.holes,
-        wrong.counts.phantoms,
-        wrong.counts.displaced,
-        wrong.counts.swapped,
-        units::figure(wrong.shading_largest),
-        units::figure(wrong.shading_mean),
-        units::figure(wrong.depth_largest),
-        units::figure(wrong.depth_mean),
+        wrong.kinds(),
+        wrong.sizes(),
     );
     Some(Picture { png: png(&compared.enlarged((x, y), side, times))?, caption })
 }

@@ -212,19 +212,11 @@ impl Render {
         // Writing to a string does not fail.
         let _ = write!(
             text,
-            "\n{} of {} pixels are wrong in a way that shows: {} holes, {} phantoms, {} displaced; {} show another object in the same \
-             place\nShading is off by {} of 255 at most, {} on average; depth by {} of the scene's extent at most, {} on average\n\
-             The picture: {}",
+            "\n{} of {} pixels are wrong in a way that shows: {}\nWith {}\nThe picture: {}",
             units::count(wrong.counts.visible()),
             units::count(wrong.counts.rays),
-            wrong.counts.holes,
-            wrong.counts.phantoms,
-            wrong.counts.displaced,
-            wrong.counts.swapped,
-            units::figure(wrong.shading_largest),
-            units::figure(wrong.shading_mean),
-            units::figure(wrong.depth_largest),
-            units::figure(wrong.depth_mean),
+            wrong.kinds(),
+            wrong.sizes(),
             beside.display(),
         );
         console.result(&facts, text)?;

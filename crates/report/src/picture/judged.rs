@@ -2,6 +2,7 @@
 
 use super::shade::{Shading, depth, shade};
 use accel::{Geometry, Hit, Raster};
+use harness::units;
 use image::imageops::{FilterType, crop_imm, replace, resize};
 use image::{Rgba, RgbaImage};
 use judge::{Counts, Kind};
@@ -22,6 +23,27 @@ pub struct Wrongness {
     pub depth_largest: f64,
     /// Its mean over those pixels.
     pub depth_mean: f64,
+}
+
+impl Wrongness {
+    /// The pixels by kind, in words.
+    pub fn kinds(&self) -> String {
+        let Counts { holes, phantoms, displaced, swapped, .. } = self.counts;
+        format!(
+            "{holes} holes, {phantoms} phantoms, {displaced} displaced, {swapped} on another object in the same place"
+        )
+    }
+
+    /// By how much colours and depths are off, in words.
+    pub fn sizes(&self) -> String {
+        format!(
+            "shading off by {} of 255 at most, {} on average, depth by {} of the extent at most, {} on average",
+            units::figure(self.shading_largest),
+            units::figure(self.shading_mean),
+            units::figure(self.depth_largest),
+            units::figure(self.depth_mean),
+        )
+    }
 }
 
 /// A picture, the exact one, and where they differ.

@@ -22,23 +22,29 @@ fn number(value: Option<f64>) -> Value {
     Value::figure(value, units::figure)
 }
 
+/// An empty table: columns of text, then columns of figures.
+fn table(texts: &[&str], figures: &[&str]) -> Table {
+    Table::new(texts.iter().map(|text| (*text).into()).chain(figures.iter().map(|name| figure(*name))))
+}
+
 fn judged(rows: &[Row], errors: impl Fn(&Row) -> Option<&Judged>) -> Table {
-    let mut table = Table::new([
-        "scene".into(),
-        "structure".into(),
-        figure("ns/ray"),
-        figure("MB"),
-        figure("rays"),
-        figure("holes/M"),
-        figure("phantoms/M"),
-        figure("displaced/M"),
-        figure("visible/M, 95 %"),
-        figure("swapped/M"),
-        figure("ties/M"),
-        figure("off by, 99 %"),
-        figure("largest"),
-        figure("t ulps, 99 %"),
-    ]);
+    let mut table = table(
+        &["scene", "structure"],
+        &[
+            "ns/ray",
+            "MB",
+            "rays",
+            "holes/M",
+            "phantoms/M",
+            "displaced/M",
+            "visible/M, 95 %",
+            "swapped/M",
+            "ties/M",
+            "off by, 99 %",
+            "largest",
+            "t ulps, 99 %",
+        ],
+    );
     for row in rows {
         let star = if row.front { " *" } else { "" };
         let mut cells = vec![Value::text(&row.scene), Value::text(format!("{}{star}", row.structure))];
@@ -78,18 +84,10 @@ fn of_old(row: &Row) -> Vec<Value> {
 
 /// Precisions with bytes, time and errors.
 pub fn curve(rows: &[Precise]) -> Table {
-    let mut table = Table::new([
-        "scene".into(),
-        "structure".into(),
-        "corners".into(),
-        figure("B/triangle"),
-        figure("ns/ray"),
-        figure("holes/M"),
-        figure("phantoms/M"),
-        figure("displaced/M"),
-        figure("swapped/M"),
-        figure("off by, 99 %"),
-    ]);
+    let mut table = table(
+        &["scene", "structure", "corners"],
+        &["B/triangle", "ns/ray", "holes/M", "phantoms/M", "displaced/M", "swapped/M", "off by, 99 %"],
+    );
     for row in rows {
         let star = if row.front { " *" } else { "" };
         let counts = &row.errors.counts;
@@ -128,18 +126,18 @@ pub fn extremes(rows: &[Extreme]) -> Table {
 
 /// Rays that leave surfaces.
 pub fn leaving(rows: &[Leaving]) -> Table {
-    let mut table = Table::new([
-        "scene".into(),
-        "kernel".into(),
-        "offset".into(),
-        figure("rays"),
-        figure("hit their own/M"),
-        figure("95 %"),
-        figure("at a distance of, median"),
-        figure("largest"),
-        figure("begin beyond another/M"),
-        figure("begin at, median"),
-    ]);
+    let mut table = table(
+        &["scene", "kernel", "offset"],
+        &[
+            "rays",
+            "hit their own/M",
+            "95 %",
+            "at a distance of, median",
+            "largest",
+            "begin beyond another/M",
+            "begin at, median",
+        ],
+    );
     for row in rows {
         let million = |n: u64| number(Some(n as f64 * 1e6 / row.rays.max(1) as f64));
         let bounds = row.own_bounds;

@@ -75,8 +75,8 @@ impl Thing {
         let to_world = |p: DVec3| place + turn * (p * size);
         match *self {
             Self::Block(pieces) => block(out, random, pieces, to_world),
-            Self::Prism { sides, rings } => prism(out, random, sides, rings, to_world),
-            Self::Tube { sides, rings } => tube(out, random, sides, rings, to_world),
+            Self::Prism { sides, rings } => prism(out, random, [sides, rings], to_world),
+            Self::Tube { sides, rings } => tube(out, random, [sides, rings], to_world),
         }
     }
 }
@@ -141,13 +141,8 @@ fn block(out: &mut Surfaces, random: &mut Random, pieces: [usize; 3], to_world: 
     }
 }
 
-fn prism(
-    out: &mut Surfaces,
-    random: &mut Random,
-    sides: usize,
-    rings: usize,
-    to_world: impl Fn(DVec3) -> DVec3,
-) {
+fn prism(out: &mut Surfaces, random: &mut Random, bands: [usize; 2], to_world: impl Fn(DVec3) -> DVec3) {
+    let [sides, rings] = bands;
     let height = random.range(0.1, 2.0);
     let (angles, levels) = (angles(random, sides), cuts(random, rings));
     let at = |i: usize, j: usize| {
@@ -159,13 +154,8 @@ fn prism(
     out.fan((0..sides).map(|j| at(rings, j)));
 }
 
-fn tube(
-    out: &mut Surfaces,
-    random: &mut Random,
-    sides: usize,
-    rings: usize,
-    to_world: impl Fn(DVec3) -> DVec3,
-) {
+fn tube(out: &mut Surfaces, random: &mut Random, bands: [usize; 2], to_world: impl Fn(DVec3) -> DVec3) {
+    let [sides, rings] = bands;
     let width = random.range(0.05, 0.5);
     let (outer, inner) = (0.5 * width, 0.5 * width * random.range(0.5, 0.95));
     let lies = random.below(2) == 0;

@@ -14,8 +14,8 @@ use crate::settings::Settings;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
 use accel::{
-    Accel, Bounds, BuildError, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet, Scene, Workload,
-    vec_bytes,
+    Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet, Scene,
+    Workload, vec_bytes,
 };
 use field::{BRICK, Field};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
@@ -79,16 +79,11 @@ impl Builder for Ssm {
         format!("{} divide={divide}", self.settings.display())
     }
 
-    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> BuildResult<'s> {
         self.build_unless(scene, workload, Cancel::NEVER)
     }
 
-    fn build_unless<'s>(
-        &self,
-        scene: &'s Scene,
-        _: &Workload,
-        cancel: Cancel,
-    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+    fn build_unless<'s>(&self, scene: &'s Scene, _: &Workload, cancel: Cancel) -> BuildResult<'s> {
         primitives::with_objects(scene, self.settings.kernel, Build(*self, cancel))
     }
 }
@@ -97,7 +92,7 @@ impl Builder for Ssm {
 pub(crate) struct Build<'c>(pub Ssm, pub Cancel<'c>);
 
 impl<'s> WithObjects<'s> for Build<'_> {
-    type Out = Result<Box<dyn Accel + 's>, BuildError>;
+    type Out = BuildResult<'s>;
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         Ok(Box::new(Built::new(objects, &self.0, self.1)?))
     }

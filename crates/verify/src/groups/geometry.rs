@@ -9,54 +9,39 @@ use scenes::Random;
 
 const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
 
+/// A question about scenes of a shape.
+macro_rules! shaped {
+    ($name:literal, $about:literal, $shape:expr, $reach:expr) => {
+        Group { name: $name, about: $about, ask: |s| shape(s, $shape, $reach) }
+    };
+}
+
 pub(super) const GROUPS: &[Group] = &[
     Group { name: "geometry/empty", about: "no triangle", ask: empty },
-    Group {
-        name: "geometry/overlapping",
-        about: "the same triangles many times",
-        ask: |s| shape(s, Shape::Repeated, CLOSE),
-    },
-    Group {
-        name: "geometry/lattice",
-        about: "corners and edges that meet in few places",
-        ask: |s| shape(s, Shape::OnLattice, CLOSE),
-    },
-    Group { name: "geometry/flat", about: "all in one plane", ask: |s| shape(s, Shape::Sheet, CLOSE) },
-    Group {
-        name: "geometry/needles",
-        about: "triangles 100,000 times as long as wide",
-        ask: |s| shape(s, Shape::Needles, CLOSE),
-    },
-    Group {
-        name: "geometry/sizes",
-        about: "triangles of sizes from 1 to 2^-19",
-        ask: |s| shape(s, Shape::Mixed, CLOSE),
-    },
-    Group {
-        name: "geometry/garbage",
-        about: "any bits for coordinates and indices: refused, or as brute force",
-        ask: |s| shape(s, Shape::AnyBits, CLOSE),
-    },
+    shaped!("geometry/overlapping", "the same triangles many times", Shape::Repeated, CLOSE),
+    shaped!("geometry/lattice", "corners and edges that meet in few places", Shape::OnLattice, CLOSE),
+    shaped!("geometry/flat", "all in one plane", Shape::Sheet, CLOSE),
+    shaped!("geometry/needles", "triangles 100,000 times as long as wide", Shape::Needles, CLOSE),
+    shaped!("geometry/sizes", "triangles of sizes from 1 to 2^-19", Shape::Mixed, CLOSE),
+    shaped!(
+        "geometry/garbage",
+        "any bits for coordinates and indices: refused, or as brute force",
+        Shape::AnyBits,
+        CLOSE
+    ),
     Group {
         name: "geometry/not-finite",
         about: "NaN and infinite coordinates are refused by name",
         ask: not_finite,
     },
-    Group {
-        name: "geometry/small",
-        about: "a scene 2^-100 across",
-        ask: |s| shape(s, Shape::Scattered, Reach { scale: -100, ..CLOSE }),
-    },
-    Group {
-        name: "geometry/large",
-        about: "a scene 2^100 across",
-        ask: |s| shape(s, Shape::Scattered, Reach { scale: 100, ..CLOSE }),
-    },
-    Group {
-        name: "geometry/offset",
-        about: "a scene 2^20 times its size from the origin of coordinates",
-        ask: |s| shape(s, Shape::Scattered, Reach { offset: Some(20), ..CLOSE }),
-    },
+    shaped!("geometry/small", "a scene 2^-100 across", Shape::Scattered, Reach { scale: -100, ..CLOSE }),
+    shaped!("geometry/large", "a scene 2^100 across", Shape::Scattered, Reach { scale: 100, ..CLOSE }),
+    shaped!(
+        "geometry/offset",
+        "a scene 2^20 times its size from the origin of coordinates",
+        Shape::Scattered,
+        Reach { offset: Some(20), ..CLOSE }
+    ),
 ];
 
 fn empty(subject: &Subject) -> Verdict {

@@ -101,6 +101,12 @@ mod tests {
         folders.iter().flat_map(faults).collect()
     }
 
+    fn only_ring_of(files: &[(&str, &str)]) -> String {
+        let mut cycles = cycles_of(files);
+        assert_eq!(cycles.len(), 1, "{cycles:?}");
+        cycles.remove(0)
+    }
+
     #[test]
     fn a_planted_ring_of_two_modules_is_found() {
         let lib = ("lib.rs", "mod a; mod b;");
@@ -117,7 +123,7 @@ mod tests {
 
     #[test]
     fn a_planted_ring_of_two_folders_is_found_though_no_two_files_make_one() {
-        let cycles = cycles_of(&[
+        only_ring_of(&[
             ("lib.rs", "mod a; mod b;"),
             ("a/mod.rs", "mod x; mod y;"),
             ("a/x.rs", "use crate::b::p::P;"),
@@ -126,29 +132,26 @@ mod tests {
             ("b/p.rs", "pub struct P;"),
             ("b/q.rs", "use crate::a::y::Y;"),
         ]);
-        assert_eq!(cycles.len(), 1, "{cycles:?}");
     }
 
     #[test]
     fn a_ring_inside_a_folder_is_found() {
-        let cycles = cycles_of(&[
+        let ring = only_ring_of(&[
             ("lib.rs", "mod a;"),
             ("a/mod.rs", "mod x; mod y;"),
             ("a/x.rs", "use super::y::Y;"),
             ("a/y.rs", "use super::x::X;"),
         ]);
-        assert_eq!(cycles.len(), 1, "{cycles:?}");
-        assert!(cycles[0].starts_with("::a: "), "{cycles:?}");
+        assert!(ring.starts_with("::a: "), "{ring}");
     }
 
     #[test]
     fn a_ring_through_names_that_the_root_hands_on_is_found() {
-        let cycles = cycles_of(&[
+        only_ring_of(&[
             ("lib.rs", "mod a; mod b; pub use a::A; pub use b::*;"),
             ("a.rs", "use crate::B; pub struct A;"),
             ("b.rs", "use crate::A; pub struct B;"),
         ]);
-        assert_eq!(cycles.len(), 1, "{cycles:?}");
     }
 
     #[test]

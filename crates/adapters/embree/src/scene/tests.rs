@@ -102,8 +102,8 @@ const INST_PRIM_ID: usize = 20;
 fn embree_writes_nothing_behind_its_structs() {
     let mesh = sheet(4);
     let scene = build(&mesh, SceneSettings::default());
-    let intersect = (&raw const INTERSECT).cast_mut();
-    let occluded = (&raw const OCCLUDED).cast_mut();
+    let intersect = (&raw const INCOHERENT.intersect).cast_mut();
+    let occluded = (&raw const INCOHERENT.occluded).cast_mut();
     let ray = single(&down(1.2, 1.2));
 
     let mut one = Guarded { inner: Words { words: [7; 24] }, guard: GUARD };

@@ -20,6 +20,14 @@ macro_rules! set {
 
 const BUILT_IN: Entry = Entry::new("", |_| unreachable!("every structure says how it is made"));
 
+/// A test of bounding volumes, one for each object.
+const BOUNDING: Entry = Entry {
+    settings: &[KERNEL],
+    traits: Traits { linear: true, ..Traits::BUILT_IN },
+    variants: &["kernel=watertight"],
+    ..BUILT_IN
+};
+
 pub const ENTRIES: &[Entry] = &[
     Entry {
         id: "brute",
@@ -41,22 +49,16 @@ pub const ENTRIES: &[Entry] = &[
         look: look("#6a6a6a", "#9b9b9b", Shape::Triangle),
         description: "every object's box tested for every ray, then detail tests",
         source: "Skala 1993, §2–3",
-        settings: &[KERNEL],
-        traits: Traits { linear: true, ..Traits::BUILT_IN },
-        variants: &["kernel=watertight"],
         make: |s| Ok(Box::new(MinMax { kernel: s.kernel()? })),
-        ..BUILT_IN
+        ..BOUNDING
     },
     Entry {
         id: "sphere",
         look: look("#3c3c3c", "#666666", Shape::Circle),
         description: "every object's bounding sphere tested for every ray, then detail tests",
         source: "Skala 1993, §4",
-        settings: &[KERNEL],
-        traits: Traits { linear: true, ..Traits::BUILT_IN },
-        variants: &["kernel=watertight"],
         make: |s| Ok(Box::new(Sphere { kernel: s.kernel()? })),
-        ..BUILT_IN
+        ..BOUNDING
     },
     Entry {
         id: "bmssm-dense",

@@ -27,11 +27,15 @@ mod reject;
 mod signs;
 
 #[cfg(test)]
+mod strategies;
+#[cfg(test)]
 mod tests;
 
 use super::packed::pack_corners;
 use super::wide::{OneEach, OneRay, OneTriangle};
-use super::{Corners, Deferral, Deferred, Floats, Kernel, KernelId, Packed, Permuted, Preparation, Prepared};
+use super::{
+    Corners, Deferral, Deferred, Floats, Kernel, KernelId, Packed, Permuted, Preparation, Prepared, RayForm,
+};
 use accel::{Common, Ray};
 use lanes::packet::RayRows;
 use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
@@ -62,6 +66,20 @@ pub struct SpannedLanes<S: Simd> {
     span: reject::Span<S>,
 }
 
+impl RayForm for Spanned {
+    type Many<S: Simd> = SpannedLanes<S>;
+
+    #[inline(always)]
+    fn one(ray: &Ray) -> Self {
+        Spanned { ray: *ray, span: reject::Span::of(Scalar, ray.origin.to_array(), ray.direction.to_array()) }
+    }
+
+    #[inline(always)]
+    fn many<S: Simd>(s: S, rays: &Packet<S>) -> SpannedLanes<S> {
+        SpannedLanes { rays: *rays, span: reject::Span::of(s, rays.origin, rays.direction) }
+    }
+}
+
 impl Kernel for Exact {
     const ID: KernelId = KernelId::Exact;
     const NORMALISED: bool = false;
@@ -71,22 +89,11 @@ impl Kernel for Exact {
     type Search = Deferred;
     type Storage = Floats;
     type One = Spanned;
-    type Many<S: Simd> = SpannedLanes<S>;
 
     #[inline(always)]
     fn pack(corners: &Corners, group: &mut [Row], lane: usize) {
         pack_corners(corners, group, lane);
         group[LENGTH_ROW].0[lane] = reject::length_of(corners);
-    }
-
-    #[inline(always)]
-    fn one(ray: &Ray) -> Spanned {
-        Spanned { ray: *ray, span: reject::Span::of(Scalar, ray.origin.to_array(), ray.direction.to_array()) }
-    }
-
-    #[inline(always)]
-    fn many<S: Simd>(s: S, rays: &Packet<S>) -> SpannedLanes<S> {
-        SpannedLanes { rays: *rays, span: reject::Span::of(s, rays.origin, rays.direction) }
     }
 
     #[inline(always)]

@@ -1,3 +1,4 @@
+use super::strategies::{aim, corners, lattice, vector, weights};
 use super::*;
 use accel::{Corners, Vec3};
 use lanes::ROW;
@@ -8,35 +9,12 @@ fn power_of_two(e: i32) -> f32 {
     2f64.powi(e) as f32
 }
 
-fn lattice() -> impl Strategy<Value = f32> + Clone {
-    prop_oneof![4 => (-3i8..=3).prop_map(f32::from), 1 => Just(-0.0f32), 1 => Just(0.5f32)]
-}
-
 fn plain() -> impl Strategy<Value = f32> + Clone {
     -3f32..3.0
 }
 
 fn any_finite() -> impl Strategy<Value = f32> + Clone {
     any::<u32>().prop_map(f32::from_bits).prop_map(|x| if x.is_finite() { x } else { 1.0 })
-}
-
-fn vector(of: impl Strategy<Value = f32> + Clone) -> impl Strategy<Value = Vec3> {
-    [of.clone(), of.clone(), of].prop_map(Vec3::from)
-}
-
-fn corners(of: impl Strategy<Value = f32> + Clone) -> impl Strategy<Value = Corners> {
-    [vector(of.clone()), vector(of.clone()), vector(of)]
-}
-
-/// Weights of the corners, often of an edge's or a corner's point.
-fn weights() -> impl Strategy<Value = [f32; 3]> {
-    let one = prop_oneof![Just(0f32), Just(1.0), 0f32..1.0];
-    [one.clone(), one.clone(), one]
-}
-
-fn aim(triangle: &Corners, weights: [f32; 3]) -> Vec3 {
-    let sum = weights.iter().sum::<f32>().max(1e-3);
-    (0..3).fold(Vec3::ZERO, |p, k| p + triangle[k] * (weights[k] / sum))
 }
 
 fn check(ray: &Ray, triangle: &Corners) -> Result<(), TestCaseError> {

@@ -41,10 +41,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn counts_and_touching_children() {
+    fn children_touch() {
         let solids = balls(4);
-        assert_eq!(solids.len(), 7382);
-        assert_eq!(balls(5).len(), 66_431);
         let (Solid::Sphere { center: a, radius: r }, Solid::Sphere { center: b, radius: s }) =
             (&solids[1], &solids[2])
         else {

@@ -28,14 +28,3 @@ fn grow(solids: &mut Vec<Solid>, to_world: DAffine3, scale: f64, depth: u32) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts() {
-        assert_eq!(jacks(1).len(), 9);
-        assert_eq!(jacks(4).len(), 9 * (4096 - 1) / 7);
-    }
-}

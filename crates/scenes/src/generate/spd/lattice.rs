@@ -23,13 +23,3 @@ pub fn lattice(sf: u32) -> Vec<Solid> {
     }
     solids
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts() {
-        assert_eq!(lattice(12).len(), 8281);
-    }
-}

@@ -28,3 +28,23 @@ pub use sombrero::sombrero;
 pub use teapot::{checkerboard, teapot};
 pub use tetra::tetra;
 pub use tree::tree;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn databases_have_the_published_numbers_of_primitives() {
+        assert_eq!(balls(4).len(), 7382);
+        assert_eq!(balls(5).len(), 66_431);
+        assert_eq!(jacks(1).len(), 9);
+        assert_eq!(jacks(4).len(), 9 * (4096 - 1) / 7);
+        assert_eq!(lattice(12).len(), 8281);
+        assert_eq!(rings(7).len(), 8401);
+        assert_eq!(rings(1).len(), 61);
+        assert_eq!(shells(5).len(), 5760);
+        assert_eq!(tetra(6).len(), 4096);
+        assert_eq!(tetra(1).len(), 4);
+        assert_eq!(tree(11).len(), 8191);
+    }
+}

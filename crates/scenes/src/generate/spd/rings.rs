@@ -47,14 +47,3 @@ fn pentagons() -> [[DVec3; 5]; 6] {
         _ => flat.map(|p| about(DVec3::Z, PI / 5.0 + (k - 1) as f64 * TAU / 5.0) * (tilt * p)),
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts() {
-        assert_eq!(rings(7).len(), 8401);
-        assert_eq!(rings(1).len(), 61);
-    }
-}

@@ -16,13 +16,3 @@ pub fn shells(sf: u32) -> Vec<Solid> {
         })
         .collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts() {
-        assert_eq!(shells(5).len(), 5760);
-    }
-}

@@ -28,14 +28,3 @@ fn divide(solids: &mut Vec<Solid>, center: DVec3, half: f64, depth: u32) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts() {
-        assert_eq!(tetra(6).len(), 4096);
-        assert_eq!(tetra(1).len(), 4);
-    }
-}
