@@ -18,7 +18,10 @@ pub fn with_objects<'s, W: WithObjects<'s>>(scene: &'s Scene, kernel: KernelId, 
     match &scene.geometry {
         Geometry::Triangles(mesh) => with_triangles(mesh.into(), kernel, with),
         Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
-        Geometry::Solids(solids) => with.objects(Solids::new(solids)),
+        Geometry::Solids(solids) => with.objects(match kernel.is_single() {
+            true => Solids::new(solids),
+            false => Solids::in_double(solids),
+        }),
     }
 }
 

@@ -3,6 +3,8 @@
 use crate::camera::Camera;
 use crate::generate::Generator;
 use crate::modifier::Transform;
+use crate::solids::Tables;
+use accel::Solid;
 use serde::Deserialize;
 
 /// One TOML file under `scenes/`, or a user's own.
@@ -34,8 +36,14 @@ pub struct Definition {
     pub generator: Option<Generator>,
     /// a mesh file,
     pub file: Option<MeshFile>,
-    /// or another scene by its id, to be transformed.
+    /// another scene by its id, to be transformed,
     pub base: Option<String>,
+    /// or a table for each solid.
+    #[serde(default, rename = "solid")]
+    tables: Tables,
+    /// The solids that these say.
+    #[serde(skip)]
+    pub solids: Vec<Solid>,
     /// Applied to every coordinate after all else.
     #[serde(default)]
     pub transform: Transform,
@@ -74,16 +82,18 @@ impl Definition {
     /// # Errors
     /// In words, what is wrong and where in the text.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let definition: Self =
+        let mut definition: Self =
             toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
         definition.validate()?;
+        definition.solids = definition.tables.solids(text)?;
         Ok(definition)
     }
 
     fn validate(&self) -> Result<(), String> {
-        let origins = [self.generator.is_some(), self.file.is_some(), self.base.is_some()];
+        let listed = !self.tables.is_empty();
+        let origins = [self.generator.is_some(), self.file.is_some(), self.base.is_some(), listed];
         if origins.iter().filter(|given| **given).count() != 1 {
-            return Err("exactly one of `generator`, `file` and `base` must be given".into());
+            return Err("exactly one of `generator`, `file`, `base` and `solid` must be given".into());
         }
         if self.split.is_some_and(|length| !(length > 0.0 && length.is_finite())) {
             return Err("`split` must be a positive length".into());

@@ -12,6 +12,7 @@
 
 #![forbid(unsafe_code)]
 
+mod analytic;
 pub mod camera;
 mod catalog;
 mod checksum;
@@ -29,6 +30,7 @@ mod reader;
 mod resolve;
 mod rotation;
 mod solid;
+mod solids;
 mod spec;
 mod split;
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::modifier::{self, Transform};
 use crate::reader::{self, Polygons};
 use crate::spec::{SceneSpec, Source};
 use crate::{catalog, view};
+use accel::solid::SolidError;
 use accel::{Geometry, Mesh, Scene, Solid, Vec3};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -136,7 +137,12 @@ fn define(definition: &Definition, folder: Option<&Path>, depth: u32) -> Result<
             let up = up_of(Path::new(&file.name));
             Staged::new(Geometry::Triangles(mesh), up, source.clone(), notes)
         }
-        (None, None) => return Err(bad(&origin, "it has no geometry".into())),
+        (None, None) if definition.solids.is_empty() => {
+            return Err(bad(&origin, "it has no geometry".into()));
+        }
+        (None, None) => {
+            Staged::new(Geometry::Solids(definition.solids.clone()), None, "listed".into(), Vec::new())
+        }
     };
     finish(definition, staged)
 }
@@ -182,6 +188,11 @@ fn change(
             "scaled by 2^{exponent} its coordinates vanish: the largest was {before:e} and becomes {after:e}"
         ));
     }
+    if let Geometry::Solids(solids) = geometry
+        && let Some((number, error)) = unsound(solids)
+    {
+        return out_of_scale(format!("transformed, its solid {number} is none any more: {error}"));
+    }
     if !(view.eye.is_finite() && view.target.is_finite()) {
         return out_of_scale(format!(
             "its camera is at {}, looking at {}: not finite",
@@ -222,6 +233,11 @@ fn not_finite(geometry: &Geometry) -> Option<(u64, f32)> {
             find(Box::new(bounds.iter()))
         }
     }
+}
+
+/// The first solid, from 1, that can't be traced.
+fn unsound(solids: &[Solid]) -> Option<(usize, SolidError)> {
+    solids.iter().enumerate().find_map(|(i, solid)| Some((i + 1, solid.validate().err()?)))
 }
 
 /// The mesh, and in words what of its file is not in it.

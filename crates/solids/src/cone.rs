@@ -2,7 +2,7 @@
 
 use crate::crossing::{Few, FewCrossings, crossings_by_few};
 use crate::local::Local;
-use crate::quadratic::{clipped, ranges_below};
+use crate::quadratic::{clipped, ranges_below, to_vertex};
 use accel::Ray;
 use accel::solid::{Cone, Shape};
 
@@ -16,7 +16,19 @@ impl FewCrossings<2> for Cone {
         let line = line.centered();
         let height = (top - base).length();
         let axis = (top - base) / height;
-        let (h, dh) = (line.origin.dot(axis), line.direction.dot(axis));
+        let (low, high) = (f64::from(self.base_radius), f64::from(self.top_radius));
+        let slope = (high - low) / height;
+        let dh = line.direction.dot(axis);
+        let (d, dr) = (line.direction - axis * dh, slope * dh);
+        let a = d.dot(d) - dr * dr;
+        let at = |line: &Local| {
+            let h = line.origin.dot(axis);
+            (h, line.origin - axis * h, 0.5 * (low + high) + slope * h)
+        };
+        let (_, o, r) = at(&line);
+        let reach = (height + low + high) / line.direction.length();
+        let line = line.from(to_vertex(a, o.dot(d) - r * dr, reach));
+        let (h, o, r) = at(&line);
         let slab = match dh == 0.0 {
             true if h.abs() * 2.0 > height => return Few::NONE,
             true => (f64::NEG_INFINITY, f64::INFINITY),
@@ -25,11 +37,10 @@ impl FewCrossings<2> for Cone {
                 (a.min(b), a.max(b))
             }
         };
-        let (low, high) = (f64::from(self.base_radius), f64::from(self.top_radius));
-        let slope = (high - low) / height;
-        let (r, dr) = (0.5 * (low + high) + slope * h, slope * dh);
-        let (o, d) = (line.origin - axis * h, line.direction - axis * dh);
-        let ranges = ranges_below(d.dot(d) - dr * dr, o.dot(d) - r * dr, o.dot(o) - r * r);
+        let (b, c) = (o.dot(d) - r * dr, o.dot(o) - r * r);
+        // What opens downward has roots, which may be one at the tip.
+        let c = if a < 0.0 && b * b - a * c < 0.0 { 0.0 } else { c };
+        let ranges = ranges_below(a, b, c);
         // The other of two ranges is in the mirrored cone beyond the tip, which at most touches the slab.
         let [a, b] = ranges.map(|range| clipped(range, slab));
         let (enters, leaves) = if b.1 - b.0 > a.1 - a.0 { b } else { a };

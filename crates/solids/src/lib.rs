@@ -5,11 +5,14 @@
 #![forbid(unsafe_code)]
 
 mod block;
+mod blocks;
 mod cone;
 mod crossing;
 mod csg;
 mod disc;
 mod facets;
+mod frame;
+mod group;
 mod implicit;
 mod interval;
 mod kind;
@@ -19,9 +22,13 @@ mod patch;
 mod polynomial;
 mod quadratic;
 mod quadric;
+mod rows;
 mod sphere;
+#[cfg(test)]
+mod tests;
 mod torus;
 mod triangle;
 
+pub use blocks::SolidBlocks;
 pub use crossing::{Crossing, Crossings};
 pub use objects::Solids;

@@ -34,8 +34,13 @@ impl Local {
     /// Ray/Sphere Intersection", Ray Tracing Gems, ch. 7, do so with balls).
     #[inline(always)]
     pub fn centered(self) -> Self {
+        self.from(-self.origin.dot(self.direction) / self.direction.dot(self.direction))
+    }
+
+    /// The line from its point at `step` on.
+    #[inline(always)]
+    pub fn from(self, step: f64) -> Self {
         let Self { origin, direction, .. } = self;
-        let step = -origin.dot(direction) / direction.dot(direction);
         Self {
             origin: origin + direction * step,
             direction,

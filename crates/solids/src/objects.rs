@@ -1,22 +1,34 @@
 //! Solids as the objects of a scene.
 
+use crate::frame::Frame;
+use crate::rows::{Cones, MOST_ROWS, Packing, Spheres, one};
 use crate::{Crossing, Crossings};
-use accel::tolerance::{holds, pad_of};
+use accel::tolerance::holds;
 use accel::{Aabb, Hit, Objects, Ray, Solid, Surface};
-use lanes::Unpacked;
+use lanes::Scalar;
+use lanes::packet::Packet;
 
 /// The solids of a scene, of any kinds.
+///
+/// Spheres and cones are tested in single precision, where a ray begins near the scene; everything else in double precision,
+/// as [`Crossings`] says.
 #[derive(Clone, Copy, Debug)]
 pub struct Solids<'s> {
     solids: &'s [Solid],
-    pad: f32,
+    pub(crate) frame: Frame,
 }
 
 impl<'s> Solids<'s> {
     /// The objects of a scene of solids, which are valid.
     pub fn new(solids: &'s [Solid]) -> Self {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, solid| all.union(solid.bounds()));
-        Self { solids, pad: pad_of(&bounds) }
+        Self { solids, frame: Frame::of(&bounds) }
+    }
+
+    /// The same with every test in double precision.
+    pub fn in_double(solids: &'s [Solid]) -> Self {
+        let plain = Self::new(solids);
+        Self { frame: plain.frame.doubled(), ..plain }
     }
 
     /// Appends every crossing of an object in the ray's range that satisfies the hit-in-padded-bounds invariant, in order.
@@ -24,13 +36,30 @@ impl<'s> Solids<'s> {
     /// # Panics
     /// If there is no such object.
     pub fn crossings(&self, id: u32, ray: &Ray, out: &mut Vec<Crossing>) {
-        let (first, bounds) = (out.len(), self.bounds(id));
+        let first = out.len();
         self.solids[id as usize].crossings(ray, out);
         let mut at = 0;
         out.retain(|crossing| {
             at += 1;
-            at <= first || holds(&bounds, ray, crossing.t as f32)
+            at <= first || self.holds(id, ray, crossing.t as f32)
         });
+    }
+
+    /// Whether a hit satisfies the hit-in-padded-bounds invariant.
+    pub(crate) fn holds(&self, id: u32, ray: &Ray, t: f32) -> bool {
+        holds(&self.bounds(id), ray, t)
+    }
+
+    /// An object's numbers, if it is of a packed kind.
+    pub(crate) fn numbers<K: Packing>(&self, id: u32) -> Option<[f32; MOST_ROWS]> {
+        if self.frame.is_double() { None } else { K::numbers(&self.solids[id as usize]) }
+    }
+
+    /// An object of kind `K` by the test of rows.
+    fn single<K: Packing>(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
+        let numbers = K::numbers(&self.solids[id as usize])?;
+        let (t, plain) = one::<K>(&numbers, ray, 0.5 * self.frame.pad, t_max)?;
+        (plain || self.holds(id, ray, t)).then_some(Surface { t, u: 0.0, v: 0.0 })
     }
 }
 
@@ -40,13 +69,21 @@ impl Objects for Solids<'_> {
     }
 
     fn bounds(&self, id: u32) -> Aabb {
-        self.solids[id as usize].bounds().padded(self.pad)
+        self.solids[id as usize].bounds().padded(self.frame.pad)
     }
 
     #[inline]
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
-        let hit = self.solids[id as usize].nearest(ray, t_max)?;
-        holds(&self.bounds(id), ray, hit.t).then_some(hit)
+        let solid = &self.solids[id as usize];
+        let packed = matches!(solid, Solid::Sphere(_) | Solid::Cone(_));
+        if packed && self.frame.near(Scalar, &Packet::splat(Scalar, ray)) {
+            return match solid {
+                Solid::Sphere(_) => self.single::<Spheres>(id, ray, t_max),
+                _ => self.single::<Cones>(id, ray, t_max),
+            };
+        }
+        let hit = solid.nearest(ray, t_max)?;
+        self.holds(id, ray, hit.t).then_some(hit)
     }
 
     fn crossings(&self, id: u32, ray: &Ray, found: &mut Vec<Hit>) {
@@ -56,5 +93,3 @@ impl Objects for Solids<'_> {
         found.extend(all.iter().map(|crossing| hit(crossing.surface())));
     }
 }
-
-impl Unpacked for Solids<'_> {}

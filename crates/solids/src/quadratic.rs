@@ -22,6 +22,12 @@ pub fn ranges_below(a: f64, b: f64, c: f64) -> [(f64, f64); 2] {
     if a > 0.0 { [(low, high), EMPTY] } else { [(ALL.0, low), (high, ALL.1)] }
 }
 
+/// The step to the vertex of a·t² + 2·b·t + c, or 0 where that is farther than `reach` away. From there the discriminant cancels no
+/// digits; from far away two roots cannot be close to each other.
+pub fn to_vertex(a: f64, b: f64, reach: f64) -> f64 {
+    if b.abs() < a.abs() * reach { -b / a } else { 0.0 }
+}
+
 /// The part of a range within another.
 pub fn clipped((low, high): (f64, f64), (near, far): (f64, f64)) -> (f64, f64) {
     (low.max(near), high.min(far))

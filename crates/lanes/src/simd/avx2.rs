@@ -58,6 +58,10 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
+    fn sqrt(self, a: Self::F) -> Self::F {
+        intrinsic!(_mm256_sqrt_ps(a))
+    }
+    #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), a))
     }

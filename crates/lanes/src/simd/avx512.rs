@@ -63,6 +63,10 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
+    fn sqrt(self, a: Self::F) -> Self::F {
+        intrinsic!(_mm512_sqrt_ps(a))
+    }
+    #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(_mm512_abs_ps(a))
     }

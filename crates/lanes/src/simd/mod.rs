@@ -109,6 +109,8 @@ pub trait Simd: Copy + Send + Sync + 'static {
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
     /// a / b
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    /// √a, correctly rounded; NaN below 0
+    fn sqrt(self, a: Self::F) -> Self::F;
     /// |a|
     fn abs(self, a: Self::F) -> Self::F;
     /// The lesser; which of the operands where one is NaN or both are zero is not said.

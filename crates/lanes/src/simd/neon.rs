@@ -36,6 +36,10 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
+    fn sqrt(self, a: Self::F) -> Self::F {
+        intrinsic!(vsqrtq_f32(a))
+    }
+    #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(vabsq_f32(a))
     }

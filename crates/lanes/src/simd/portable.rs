@@ -48,6 +48,10 @@ impl Simd for Portable {
         zip(a, b, |a, b| a / b)
     }
     #[inline(always)]
+    fn sqrt(self, a: Self::F) -> Self::F {
+        a.map(f32::sqrt)
+    }
+    #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         a.map(f32::abs)
     }

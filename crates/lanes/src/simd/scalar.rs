@@ -41,6 +41,10 @@ impl Simd for Scalar {
         a / b
     }
     #[inline(always)]
+    fn sqrt(self, a: f32) -> f32 {
+        a.sqrt()
+    }
+    #[inline(always)]
     fn abs(self, a: f32) -> f32 {
         a.abs()
     }

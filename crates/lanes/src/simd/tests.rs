@@ -30,6 +30,7 @@ impl Task for Everything {
                 s.sub(x, y),
                 s.mul(x, y),
                 s.abs(s.div(x, y)),
+                s.sqrt(s.abs(s.div(x, y))),
                 s.abs(s.min(x, y)),
                 s.abs(s.max(x, y)),
                 s.select(lt, x, s.splat(7.0)),

@@ -17,6 +17,7 @@ mod triangles;
 pub use boxes::PIXELS;
 pub use degenerate::Shape;
 
+use crate::analytic::analytic;
 use crate::solid::{self, Solid};
 use accel::{Geometry, Mesh};
 use glam::DVec3;
@@ -116,6 +117,9 @@ pub enum Generator {
         /// Edges around a tessellated sphere, cone or cylinder.
         #[serde(default = "default_segments")]
         segments: u32,
+        /// Whether spheres, cones and cylinders stay what they are instead, capped.
+        #[serde(default)]
+        analytic: bool,
     },
     /// Haines' sombrero, a height field.
     Sombrero {
@@ -208,7 +212,10 @@ impl Generator {
             Self::Strands { objects } => strands::strands(objects, seed),
             Self::Clutter { objects } => clutter::clutter(objects, seed),
             Self::Degenerate { shape, objects } => degenerate::degenerate(shape, objects, seed),
-            Self::Spd { database, size_factor, segments } => {
+            Self::Spd { database, size_factor, analytic: true, .. } => {
+                return Ok(Geometry::Solids(analytic(&database.solids(size_factor, seed))));
+            }
+            Self::Spd { database, size_factor, segments, .. } => {
                 solid::tessellate(&database.solids(size_factor, seed), segments)
             }
             Self::Sombrero { size_factor } => spd::sombrero(size_factor),
@@ -241,7 +248,7 @@ impl Generator {
             Self::Sombrero { size_factor } => {
                 2048u64.saturating_mul(4u64.saturating_pow(size_factor.saturating_sub(1)))
             }
-            Self::Spd { database, size_factor, segments } => {
+            Self::Spd { database, size_factor, segments, .. } => {
                 let round = cells(segments.saturating_add(3)).max(2);
                 let primitives = database.primitives(size_factor);
                 match database {
@@ -366,11 +373,11 @@ mod tests {
     fn absurd_sizes_are_refused_before_memory_is_taken() {
         for generator in [
             Generator::Triangles { objects: u32::MAX, edge: 1.0 },
-            Generator::Spd { database: Database::Balls, size_factor: u32::MAX, segments: 8 },
-            Generator::Spd { database: Database::Tetra, size_factor: 0, segments: 8 },
-            Generator::Spd { database: Database::Tetra, size_factor: 1, segments: u32::MAX },
-            Generator::Spd { database: Database::Mount, size_factor: 1, segments: 200_000 },
-            Generator::Spd { database: Database::Gears, size_factor: 1, segments: 1 << 31 },
+            Generator::Spd { database: Database::Balls, size_factor: u32::MAX, segments: 8, analytic: false },
+            Generator::Spd { database: Database::Tetra, size_factor: 0, segments: 8, analytic: false },
+            Generator::Spd { database: Database::Tetra, size_factor: 1, segments: u32::MAX, analytic: false },
+            Generator::Spd { database: Database::Mount, size_factor: 1, segments: 200_000, analytic: false },
+            Generator::Spd { database: Database::Gears, size_factor: 1, segments: 1 << 31, analytic: false },
             Generator::Sombrero { size_factor: 0 },
             Generator::Foliage { objects: 13 },
             Generator::Strands { objects: 89 },

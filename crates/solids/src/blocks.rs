@@ -1,0 +1,247 @@
+//! Solids packed in blocks of 64: kinds that have rows are tested `LANES` at a time, others one by one.
+
+use crate::frame::Frame;
+use crate::group::{Group, Kind};
+use crate::objects::Solids;
+use crate::rows::{Cones, Prepared, Spheres};
+use accel::{Nearest, Objects, Ray};
+use lanes::packet::{Lanes, NearestPacket, Packet};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd};
+
+/// Solids in blocks. Each row of 16 slots has a group of rows for each packed kind that is in it.
+#[derive(Clone, Debug)]
+pub struct SolidBlocks<'s> {
+    solids: Solids<'s>,
+    ids: Ids,
+    spheres: Kind<Spheres>,
+    cones: Kind<Cones>,
+}
+
+/// A ray prepared for solids.
+#[derive(Clone, Copy, Debug)]
+pub struct OneRay {
+    ray: Ray,
+    near: bool,
+    prepared: Prepared<f32>,
+}
+
+/// A packet of rays prepared for solids.
+#[derive(Clone, Copy)]
+pub struct ManyRays<S: Simd> {
+    rays: Packet<S>,
+    near: S::M,
+    prepared: Prepared<S::F>,
+}
+
+impl<'s> SolidBlocks<'s> {
+    /// Slot i holds object `order[i]`.
+    pub fn new(solids: Solids<'s>, order: &[u32]) -> Self {
+        let (spheres, cones) = (Kind::new(&solids, order), Kind::new(&solids, order));
+        Self { solids, ids: Ids::new(order), spheres, cones }
+    }
+
+    fn frame(&self) -> &Frame {
+        &self.solids.frame
+    }
+
+    #[inline(always)]
+    fn one_by_one(&self, first: usize, mut mask: u32, ray: &Ray, best: &mut Nearest) {
+        while mask != 0 {
+            let object = self.ids.get(first + mask.trailing_zeros() as usize);
+            mask &= mask - 1;
+            if object != EMPTY_SLOT {
+                self.solids.closest(object, ray, best);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn group<K: crate::rows::Packing, S: Simd>(
+        &self,
+        s: S,
+        (first, group): (usize, Group<'_>),
+        mask: u32,
+        ray: &OneRay,
+        best: &mut Nearest,
+    ) {
+        let half_pad = s.splat(0.5 * self.frame().pad);
+        let prepared = ray.prepared.splat(s);
+        let mut lane = 0;
+        while lane < ROW {
+            let wanted = mask >> lane & (u32::MAX >> (32 - S::LANES));
+            if wanted != 0 {
+                let values = crate::rows::load::<K, S>(s, group.rows, lane);
+                let found = K::test(s, &prepared, &values, half_pad, s.splat(best.t));
+                let mut hits = s.bits(found.hit) & wanted;
+                if hits != 0 {
+                    let plain = s.bits(found.plain);
+                    let mut t = [0.0; ROW];
+                    s.store(found.t, &mut t);
+                    while hits != 0 {
+                        let at = hits.trailing_zeros() as usize;
+                        hits &= hits - 1;
+                        let object = self.ids.get(first + lane + at);
+                        let comes = t[at] < best.t || (t[at] == best.t && object < best.object);
+                        if comes && (plain >> at & 1 != 0 || self.solids.holds(object, &ray.ray, t[at])) {
+                            *best = Nearest { t: t[at], object, u: 0.0, v: 0.0 };
+                        }
+                    }
+                }
+            }
+            lane += S::LANES;
+        }
+    }
+
+    /// One packed object against the near ones of `LANES` rays.
+    #[inline(always)]
+    fn packed<K: crate::rows::Packing, S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        group: Group<'_>,
+        rays: &ManyRays<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let object = self.ids.get(slot);
+        let half_pad = s.splat(0.5 * self.frame().pad);
+        let values = crate::rows::splat::<K, S>(s, group.rows, slot % ROW);
+        let found = K::test(s, &rays.prepared, &values, half_pad, best.t);
+        let mut hit = s.and(found.hit, rays.near);
+        let mut unsure = s.bits(hit) & !s.bits(found.plain);
+        if unsure != 0 {
+            let mut kept = s.bits(hit);
+            let mut t = [0.0; ROW];
+            s.store(found.t, &mut t);
+            while unsure != 0 {
+                let lane = unsure.trailing_zeros() as usize;
+                unsure &= unsure - 1;
+                if !self.solids.holds(object, &rays.rays.ray(s, lane), t[lane]) {
+                    kept &= !(1 << lane);
+                }
+            }
+            hit = s.mask(kept);
+        }
+        let zero = s.splat(0.0);
+        best.offer(s, object, &Lanes { hit, t: found.t, u: zero, v: zero });
+    }
+
+    /// One object against the rays of some lanes, one by one.
+    fn lanes_one_by_one<S: Simd>(
+        &self,
+        s: S,
+        object: u32,
+        mut lanes: u32,
+        rays: &Packet<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let mut nearest = [Nearest::new(0.0); ROW];
+        best.store(s, &mut nearest);
+        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
+        let mut wins = 0;
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize;
+            lanes &= lanes - 1;
+            let mut after = nearest[lane];
+            if after.t == f32::NEG_INFINITY {
+                continue;
+            }
+            self.solids.closest(object, &rays.ray(s, lane), &mut after);
+            wins |= u32::from(after.object != nearest[lane].object) << lane;
+            (t[lane], u[lane], v[lane]) = (after.t, after.u, after.v);
+        }
+        let wins = s.mask(wins);
+        best.take(s, wins, object, &Lanes { hit: wins, t: s.load(&t), u: s.load(&u), v: s.load(&v) });
+    }
+}
+
+impl Blocks for SolidBlocks<'_> {
+    type One = OneRay;
+    type Many<S: Simd> = ManyRays<S>;
+
+    fn bytes(&self) -> usize {
+        self.ids.bytes() + self.spheres.bytes() + self.cones.bytes()
+    }
+
+    #[inline]
+    fn object(&self, slot: usize) -> u32 {
+        self.ids.get(slot)
+    }
+
+    #[inline(always)]
+    fn one(&self, ray: &Ray) -> OneRay {
+        let packet = Packet::splat(Scalar, ray);
+        OneRay {
+            ray: *ray,
+            near: self.frame().near(Scalar, &packet),
+            prepared: Prepared::of(Scalar, &packet),
+        }
+    }
+
+    #[inline(always)]
+    fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> ManyRays<S> {
+        ManyRays { rays: *rays, near: self.frame().near(s, rays), prepared: Prepared::of(s, rays) }
+    }
+
+    #[inline(always)]
+    fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &OneRay, best: &mut Nearest) {
+        for row in 0..BLOCK / ROW {
+            let mut wanted = (mask >> (row * ROW)) as u32 & 0xffff;
+            if wanted == 0 {
+                continue;
+            }
+            let (number, first) = (block * (BLOCK / ROW) + row, block * BLOCK + row * ROW);
+            if ray.near {
+                let group = self.spheres.group(number);
+                if wanted & group.mask != 0 {
+                    self.group::<Spheres, S>(s, (first, group), wanted & group.mask, ray, best);
+                }
+                wanted &= !group.mask;
+                let group = self.cones.group(number);
+                if wanted & group.mask != 0 {
+                    self.group::<Cones, S>(s, (first, group), wanted & group.mask, ray, best);
+                }
+                wanted &= !group.mask;
+            }
+            self.one_by_one(first, wanted, &ray.ray, best);
+        }
+    }
+
+    #[inline(always)]
+    fn packet<S: Simd>(&self, s: S, slot: usize, rays: &ManyRays<S>, best: &mut NearestPacket<S>) {
+        let (number, bit) = (slot / ROW, 1 << (slot % ROW));
+        let all = u32::MAX >> (32 - S::LANES);
+        let mut left = all;
+        let (spheres, cones) = (self.spheres.group(number), self.cones.group(number));
+        if spheres.mask & bit != 0 {
+            self.packed::<Spheres, S>(s, slot, spheres, rays, best);
+            left &= !s.bits(rays.near);
+        } else if cones.mask & bit != 0 {
+            self.packed::<Cones, S>(s, slot, cones, rays, best);
+            left &= !s.bits(rays.near);
+        }
+        let object = self.ids.get(slot);
+        if left != 0 && object != EMPTY_SLOT {
+            self.lanes_one_by_one(s, object, left, &rays.rays, best);
+        }
+    }
+}
+
+/// Bytes of a slot, about: the number, a sphere's or a cone's rows, and what finds them.
+const BYTES_OF_SLOT: u128 = 24;
+
+impl<'s> PackedObjects for Solids<'s> {
+    type Blocks = SolidBlocks<'s>;
+    type Shape = Self;
+
+    fn shape(&self) -> Self {
+        *self
+    }
+
+    fn blocks(&self, order: &[u32]) -> Self::Blocks {
+        SolidBlocks::new(*self, order)
+    }
+
+    fn bytes_of_blocks(slots: usize) -> u128 {
+        slots as u128 * BYTES_OF_SLOT
+    }
+}

@@ -1,0 +1,81 @@
+//! The objects of one kind among the slots of an order.
+
+use crate::objects::Solids;
+use crate::rows::{MOST_ROWS, Packing};
+use accel::vec_bytes;
+use lanes::{EMPTY_SLOT, ROW, Row};
+use std::marker::PhantomData;
+
+/// Rows of one kind. Where an order keeps kinds apart there is little that is empty in them.
+#[derive(Clone, Debug)]
+pub struct Kind<K> {
+    rows: Vec<Row>,
+    /// For each row of slots which of them hold objects of the kind, and where its group is. Empty without any.
+    places: Vec<Place>,
+    kind: PhantomData<K>,
+}
+
+/// Where a row's objects of a kind are.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    mask: u32,
+    group: u32,
+}
+
+/// The objects of a kind in a row of slots.
+#[derive(Clone, Copy, Debug)]
+pub struct Group<'a> {
+    /// The slots that hold them.
+    pub mask: u32,
+    /// Their numbers, or none.
+    pub rows: &'a [Row],
+}
+
+impl<K: Packing> Kind<K> {
+    /// Those of the objects in an order that are of this kind.
+    pub fn new(solids: &Solids<'_>, order: &[u32]) -> Self {
+        let mut rows: Vec<Row> = Vec::new();
+        let mut places = Vec::with_capacity(order.len().div_ceil(ROW));
+        for slots in order.chunks(ROW) {
+            let (mut mask, group) = (0, rows.len() / K::ROWS);
+            for (lane, object) in slots.iter().enumerate().filter(|(_, object)| **object != EMPTY_SLOT) {
+                let Some(numbers) = solids.numbers::<K>(*object) else { continue };
+                if mask == 0 {
+                    rows.resize((group + 1) * K::ROWS, Row([0.0; ROW]));
+                }
+                mask |= 1 << lane;
+                write(&mut rows[group * K::ROWS..], &numbers[..K::ROWS], lane);
+            }
+            places.push(Place { mask, group: group as u32 });
+        }
+        if rows.is_empty() {
+            places = Vec::new();
+        }
+        rows.shrink_to_fit();
+        Self { rows, places, kind: PhantomData }
+    }
+
+    /// Bytes on the heap.
+    pub fn bytes(&self) -> usize {
+        vec_bytes(&self.rows) + vec_bytes(&self.places)
+    }
+
+    /// What is in a row of slots.
+    #[inline(always)]
+    pub fn group(&self, row: usize) -> Group<'_> {
+        match self.places.get(row) {
+            Some(Place { mask, group }) if *mask != 0 => {
+                let first = *group as usize * K::ROWS;
+                Group { mask: *mask, rows: &self.rows[first..first + K::ROWS] }
+            }
+            _ => Group { mask: 0, rows: &[] },
+        }
+    }
+}
+
+fn write(rows: &mut [Row], numbers: &[f32], lane: usize) {
+    debug_assert!(numbers.len() <= MOST_ROWS);
+    for (row, number) in rows.iter_mut().zip(numbers) {
+        row.0[lane] = *number;
+    }
+}

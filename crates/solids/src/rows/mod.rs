@@ -1,0 +1,131 @@
+//! Tests of kinds that are packed in rows of 16, in single precision: one ray against `LANES` objects, or one object against
+//! `LANES` rays, by the same operations.
+
+mod cone;
+mod sphere;
+
+pub use cone::Cones;
+pub use sphere::Spheres;
+
+use accel::{Ray, Solid};
+use lanes::packet::{Packet, Vec3Lanes};
+use lanes::{Row, Simd};
+
+/// More rows than any kind has.
+pub const MOST_ROWS: usize = 15;
+
+/// The numbers of `LANES` objects.
+pub type Values<S> = [<S as Simd>::F; MOST_ROWS];
+
+/// A ray and what is the same for all objects.
+#[derive(Clone, Copy, Debug)]
+pub struct Prepared<F> {
+    pub origin: [F; 3],
+    pub direction: [F; 3],
+    /// One over the direction's square.
+    pub inverse: F,
+    pub t_min: F,
+}
+
+impl<F: Copy> Prepared<F> {
+    #[inline(always)]
+    pub fn of<S: Simd<F = F>>(s: S, rays: &Packet<S>) -> Self {
+        let inverse = s.div(s.splat(1.0), dot(s, rays.direction, rays.direction));
+        Self { origin: rays.origin, direction: rays.direction, inverse, t_min: rays.t_min }
+    }
+}
+
+impl Prepared<f32> {
+    /// In all lanes.
+    #[inline(always)]
+    pub fn splat<S: Simd>(&self, s: S) -> Prepared<S::F> {
+        let all = |v: [f32; 3]| [s.splat(v[0]), s.splat(v[1]), s.splat(v[2])];
+        Prepared {
+            origin: all(self.origin),
+            direction: all(self.direction),
+            inverse: s.splat(self.inverse),
+            t_min: s.splat(self.t_min),
+        }
+    }
+}
+
+/// What a test found.
+#[derive(Clone, Copy)]
+pub struct Found<S: Simd> {
+    /// Hits with t in range.
+    pub hit: S::M,
+    /// Where. Both zeros are one.
+    pub t: S::F,
+    /// Those whose place, as it is rounded, lies in the object's box padded by half: for near rays they satisfy the
+    /// hit-in-padded-bounds invariant.
+    pub plain: S::M,
+}
+
+/// A kind that is packed.
+pub trait Packing: 'static {
+    /// How many numbers an object has.
+    const ROWS: usize;
+
+    /// The numbers of a solid, if it is of this kind.
+    fn numbers(solid: &Solid) -> Option<[f32; MOST_ROWS]>;
+
+    /// Tests rays against objects in as many lanes, with t up to `t_max`.
+    fn test<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, half_pad: S::F, t_max: S::F)
+    -> Found<S>;
+}
+
+/// `LANES` objects of a group from a lane on.
+#[inline(always)]
+pub fn load<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S> {
+    let mut values = [s.splat(0.0); MOST_ROWS];
+    for (value, row) in values.iter_mut().zip(&group[..K::ROWS]) {
+        *value = s.load(&row.0[lane..]);
+    }
+    values
+}
+
+/// One object of a group in all lanes.
+#[inline(always)]
+pub fn splat<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S> {
+    let mut values = [s.splat(0.0); MOST_ROWS];
+    for (value, row) in values.iter_mut().zip(&group[..K::ROWS]) {
+        *value = s.splat(row.0[lane]);
+    }
+    values
+}
+
+/// One object against one ray.
+#[inline(always)]
+pub fn one<K: Packing>(
+    numbers: &[f32; MOST_ROWS],
+    ray: &Ray,
+    half_pad: f32,
+    t_max: f32,
+) -> Option<(f32, bool)> {
+    let prepared = Prepared::of(lanes::Scalar, &Packet::splat(lanes::Scalar, ray));
+    let found = K::test(lanes::Scalar, &prepared, numbers, half_pad, t_max);
+    found.hit.then_some((found.t, found.plain))
+}
+
+#[inline(always)]
+fn dot<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> S::F {
+    s.add(s.add(s.mul(a[0], b[0]), s.mul(a[1], b[1])), s.mul(a[2], b[2]))
+}
+
+/// a + b·t
+#[inline(always)]
+fn along<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>, t: S::F) -> Vec3Lanes<S> {
+    [s.add(a[0], s.mul(b[0], t)), s.add(a[1], s.mul(b[1], t)), s.add(a[2], s.mul(b[2], t))]
+}
+
+#[inline(always)]
+fn sub3<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> Vec3Lanes<S> {
+    [s.sub(a[0], b[0]), s.sub(a[1], b[1]), s.sub(a[2], b[2])]
+}
+
+/// The first of a way in and a way out that is in the ray's range.
+#[inline(always)]
+fn first<S: Simd>(s: S, enters: S::F, leaves: S::F, t_min: S::F, t_max: S::F) -> (S::M, S::F) {
+    let t = s.add(s.select(s.le(t_min, enters), enters, leaves), s.splat(0.0));
+    (s.and(s.le(t_min, t), s.le(t, t_max)), t)
+}
