@@ -227,6 +227,11 @@ unsafe extern "C" fn on_memory(user: *mut c_void, bytes: isize, _post: bool) -> 
     true
 }
 
+/// A call that returned nothing and told no error.
+pub(crate) fn no_handle(doing: &'static str) -> EmbreeError {
+    EmbreeError::Call { doing, code: 0, message: "no handle and no error".to_owned() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

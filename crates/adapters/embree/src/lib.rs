@@ -9,6 +9,7 @@ pub mod device;
 pub mod one_thread;
 pub mod packet;
 pub mod scene;
+mod solids;
 mod structure;
 pub mod wrapper;
 
@@ -16,5 +17,6 @@ pub use denormals::Denormals;
 pub use device::{Device, EmbreeError, Isa, MemoryUse, version};
 pub use one_thread::keep_to_one_thread;
 pub use scene::{Coherence, EmbreeScene, Quality, SceneSettings};
+pub use solids::SolidKinds;
 pub use structure::{EmbreeBuilder, PacketFlag, Variant};
 pub use wrapper::WrapperBuilder;

@@ -1,17 +1,18 @@
-//! Triangle scenes and the queries on them.
+//! Scenes and the queries on them.
 
 use std::borrow::Cow;
 use std::ptr::NonNull;
 
-use accel::{Hit, Mesh, Ray, Vec3, vec_bytes};
+use accel::{Hit, Mesh, Ray, Solid, Vec3, vec_bytes};
 
 use embree4_sys::{
     self as sys, RTC_INVALID_GEOMETRY_ID, RTCBufferType, RTCBuildQuality, RTCFormat, RTCGeometryType, RTCHit,
     RTCIntersectArguments, RTCOccludedArguments, RTCRay, RTCRayHit, RTCRayQueryFlags, RTCSceneFlags,
 };
 
-use crate::device::{Device, EmbreeError, MemoryUse};
+use crate::device::{Device, EmbreeError, MemoryUse, no_handle};
 use crate::packet::{self, Active, packet};
+use crate::solids::{Attached, SolidKinds};
 
 /// How much time a build may take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,7 +93,7 @@ impl Coherence {
     }
 }
 
-/// A committed scene of one triangle mesh, whose buffers it reads where they lie.
+/// A committed scene: one triangle mesh, whose buffers it reads where they lie, or solids.
 ///
 /// Rays: t_min below 0 counts as 0, and a hit at t_min itself is no hit (Embree's ranges are open
 /// at their start); a triangle with a coordinate beyond 1.8e18 is left out by Embree.
@@ -104,6 +105,8 @@ pub struct EmbreeScene<'m> {
     positions: Cow<'m, [Vec3]>,
     positions_copied: usize,
     _triangles: &'m [[u32; 3]],
+    /// What Embree calls back for solids, and their numbers.
+    solids: Option<Attached<'m>>,
 }
 
 // SAFETY: a committed scene is only read by queries, which Embree allows from any thread and from
@@ -123,15 +126,42 @@ impl<'m> EmbreeScene<'m> {
     /// If a triangle names a position that there is not, or Embree fails.
     pub fn new(device: Device, mesh: &'m Mesh, settings: SceneSettings) -> Result<Self, EmbreeError> {
         check_indices(mesh)?;
-        let (positions, positions_copied) = readable_by_16_bytes(&mesh.positions);
+        let mut scene = Self::begin(device, settings)?;
+        (scene.positions, scene.positions_copied) = readable_by_16_bytes(&mesh.positions);
+        scene._triangles = mesh.triangles.as_slice();
+        if !mesh.triangles.is_empty() {
+            scene.attach(&mesh.triangles, settings.quality)?;
+        }
+        scene.commit()
+    }
+
+    /// Of solids: as user geometry, or as geometry of Embree's own where it has the kind.
+    ///
+    /// # Errors
+    /// If Embree fails.
+    pub fn of_solids(
+        device: Device,
+        solids: &'m [Solid],
+        kinds: SolidKinds,
+        settings: SceneSettings,
+    ) -> Result<Self, EmbreeError> {
+        let mut scene = Self::begin(device, settings)?;
+        // SAFETY: device and scene are live, and what is attached is kept as long as the scene.
+        let attached = unsafe { Attached::to(&scene.device, scene.handle.as_ptr(), solids, kinds) }?;
+        scene.solids = Some(attached);
+        scene.commit()
+    }
+
+    /// A scene without geometry.
+    fn begin(device: Device, settings: SceneSettings) -> Result<Self, EmbreeError> {
         // SAFETY: the device is live.
         let handle = unsafe { sys::rtcNewScene(device.handle()) };
         let Some(handle) = NonNull::new(handle) else {
             device.check("making a scene")?;
             return Err(no_handle("making a scene"));
         };
-        let scene =
-            Self { handle, device, positions, positions_copied, _triangles: mesh.triangles.as_slice() };
+        let positions = Cow::Borrowed([].as_slice());
+        let scene = Self { handle, device, positions, positions_copied: 0, _triangles: &[], solids: None };
         let flag = |flag, set| if set { flag } else { RTCSceneFlags::NONE };
         let flags =
             flag(RTCSceneFlags::ROBUST, settings.robust) | flag(RTCSceneFlags::COMPACT, settings.compact);
@@ -141,13 +171,14 @@ impl<'m> EmbreeScene<'m> {
             sys::rtcSetSceneBuildQuality(scene.handle.as_ptr(), settings.quality.code());
         }
         scene.device.check("setting up a scene")?;
-        if !mesh.triangles.is_empty() {
-            scene.attach(&mesh.triangles, settings.quality)?;
-        }
-        // SAFETY: the handle is live, and every index was checked.
-        unsafe { sys::rtcCommitScene(scene.handle.as_ptr()) };
-        scene.device.check("building a scene")?;
         Ok(scene)
+    }
+
+    fn commit(self) -> Result<Self, EmbreeError> {
+        // SAFETY: the handle is live, and every index was checked.
+        unsafe { sys::rtcCommitScene(self.handle.as_ptr()) };
+        self.device.check("building a scene")?;
+        Ok(self)
     }
 
     fn attach(&self, triangles: &[[u32; 3]], quality: Quality) -> Result<(), EmbreeError> {
@@ -195,7 +226,14 @@ impl<'m> EmbreeScene<'m> {
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         let mut rayhit = RTCRayHit { ray: single(ray), hit: RTCHit::default() };
         self.intersect1(&mut rayhit);
-        (rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID).then_some(found(&rayhit))
+        if rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID {
+            return None;
+        }
+        let mut hit = found(&rayhit);
+        if let Some(solids) = &self.solids {
+            hit.object = solids.object(rayhit.hit.geomID, hit.object);
+        }
+        Some(hit)
     }
 
     /// `rtcIntersect1` as it is, for those who keep rays in Embree's layout.
@@ -232,6 +270,9 @@ impl<'m> EmbreeScene<'m> {
         unsafe { sys::rtcIntersect16(active.as_ptr(), self.handle.as_ptr(), &raw mut packet, arguments) };
         for (lane, hit) in hits[..rays.len()].iter_mut().enumerate() {
             *hit = packet::hit(&packet, lane);
+            if let (Some(solids), Some(hit)) = (&self.solids, hit) {
+                hit.object = solids.object(packet.hit.geomID[lane], hit.object);
+            }
         }
     }
 
@@ -261,6 +302,11 @@ impl<'m> EmbreeScene<'m> {
         self.positions_copied
     }
 
+    /// Bytes of what Embree calls back for solids, and of their numbers.
+    pub fn solid_bytes(&self) -> usize {
+        self.solids.as_ref().map_or(0, Attached::bytes)
+    }
+
     /// Version of Embree: major, minor, patch.
     pub fn version(&self) -> (u32, u32, u32) {
         self.device.version()
@@ -277,10 +323,6 @@ impl Drop for EmbreeScene<'_> {
         // SAFETY: the handle is live and this is its only reference; device and buffers go after it.
         unsafe { sys::rtcReleaseScene(self.handle.as_ptr()) };
     }
-}
-
-fn no_handle(doing: &'static str) -> EmbreeError {
-    EmbreeError::Call { doing, code: 0, message: "no handle and no error".to_owned() }
 }
 
 /// Embree trusts indices; a wrong one would be read out of bounds.

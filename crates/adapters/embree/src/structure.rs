@@ -9,6 +9,7 @@ use crate::denormals::{Denormals, DenormalsGuard};
 use crate::device::{Device, EmbreeError, Isa};
 use crate::packet::WIDTH;
 use crate::scene::{Coherence, EmbreeScene, Quality, SceneSettings};
+use crate::solids::SolidKinds;
 
 /// Which of Embree's structures and queries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,6 +90,8 @@ pub struct EmbreeBuilder {
     pub isa: Option<Isa>,
     /// Which packets are said to be coherent; packets only.
     pub coherent: PacketFlag,
+    /// How solids are given to Embree.
+    pub solids: SolidKinds,
 }
 
 impl EmbreeBuilder {
@@ -100,6 +103,7 @@ impl EmbreeBuilder {
             denormals: Denormals::Keep,
             isa: None,
             coherent: PacketFlag::Rasters,
+            solids: SolidKinds::User,
         }
     }
 
@@ -121,13 +125,19 @@ impl Builder for EmbreeBuilder {
         if self.variant == Variant::Packet {
             text += &format!(" coherent={}", self.coherent.id());
         }
+        if self.solids != SolidKinds::User {
+            text += &format!(" solids={}", self.solids.id());
+        }
         text
     }
 
     fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
-        let Geometry::Triangles(mesh) = &scene.geometry else {
-            return Err(self.unsupported(&format!("{}: Embree has triangles", scene.geometry.kind())));
-        };
+        if let Geometry::Boxes(_) = &scene.geometry {
+            return Err(self.unsupported("boxes: Embree has triangles"));
+        }
+        if matches!(scene.geometry, Geometry::Solids(_)) && self.denormals != Denormals::Keep {
+            return Err(self.unsupported("solids without denormal numbers: their tests are not Embree's"));
+        }
         let settings = SceneSettings {
             quality: self.quality,
             robust: self.variant == Variant::Robust,
@@ -135,12 +145,15 @@ impl Builder for EmbreeBuilder {
         };
         let threads = rayon::current_num_threads();
         let device = self.isa.map_or_else(|| Device::new(threads), |isa| Device::limited(threads, isa));
-        let scene = device.and_then(|device| EmbreeScene::new(device, mesh, settings)).map_err(
-            |error: EmbreeError| BuildError::Library {
-                structure: self.variant.id().to_owned(),
-                message: error.to_string(),
-            },
-        )?;
+        let make = |device| match &scene.geometry {
+            Geometry::Triangles(mesh) => EmbreeScene::new(device, mesh, settings),
+            Geometry::Solids(solids) => EmbreeScene::of_solids(device, solids, self.solids, settings),
+            Geometry::Boxes(_) => EmbreeScene::of_solids(device, &[], self.solids, settings),
+        };
+        let scene = device.and_then(make).map_err(|error: EmbreeError| BuildError::Library {
+            structure: self.variant.id().to_owned(),
+            message: error.to_string(),
+        })?;
         let packets = (self.variant == Variant::Packet).then_some(self.coherent);
         Ok(Box::new(Built { scene, packets, denormals: self.denormals }))
     }
@@ -295,6 +308,10 @@ impl Accel for Built<'_> {
     fn footprint(&self) -> Footprint {
         let held = usize::try_from(self.scene.memory().now).unwrap_or(usize::MAX);
         let footprint = Footprint::default().structure("memory monitor", held);
+        let footprint = match self.scene.solid_bytes() {
+            0 => footprint,
+            bytes => footprint.structure("numbers of solids", bytes),
+        };
         match self.scene.copied_bytes() {
             0 => footprint,
             bytes => footprint.geometry_copy("padded positions", bytes),

@@ -45,6 +45,12 @@ codes! {
     RTCGeometryType {
         /// Triangles that share corners.
         TRIANGLE = 0,
+        /// Cones and cylinders between two points each, with a radius at both.
+        CONE_LINEAR_CURVE = 15,
+        /// Spheres.
+        SPHERE_POINT = 50,
+        /// Discs with a normal.
+        ORIENTED_DISC_POINT = 52,
         /// Objects with functions of the caller.
         USER = 120,
     }
@@ -55,14 +61,20 @@ codes! {
         INDEX = 0,
         /// Positions.
         VERTEX = 1,
+        /// Normals.
+        NORMAL = 3,
     }
 
     /// How a buffer holds it.
     RTCFormat {
+        /// One 32-bit unsigned integer.
+        UINT = 0x5001,
         /// Three 32-bit unsigned integers.
         UINT3 = 0x5003,
         /// Three 32-bit floats.
         FLOAT3 = 0x9003,
+        /// Four 32-bit floats.
+        FLOAT4 = 0x9004,
     }
 
     /// How much time a build may take.

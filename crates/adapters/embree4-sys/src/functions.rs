@@ -96,6 +96,8 @@ unsafe extern "C" {
     );
     /// The function for intersection with user geometry.
     pub fn rtcSetGeometryIntersectFunction(geometry: RTCGeometry, function: RTCIntersectFunctionN);
+    /// The function for occlusion by user geometry; it is given rays where that for intersection is given rays with hits.
+    pub fn rtcSetGeometryOccludedFunction(geometry: RTCGeometry, function: RTCIntersectFunctionN);
     /// Ends the changes to a geometry.
     pub fn rtcCommitGeometry(geometry: RTCGeometry);
 

@@ -3,6 +3,9 @@
 use crate::registry::{Entry, Shape, Traits, look};
 use library::{ABSENT, Variant, make, version, wrapper};
 
+const SOLIDS: (&str, &str) =
+    ("solids", "user: solids by the suite's tests; native: by Embree's own where it has the kind");
+
 const EMBREE: Entry = Entry {
     look: look("#0969b8", "#63befd", Shape::Square),
     description: "Embree's BVH, one ray at a time (rtcIntersect1, rtcOccluded1)",
@@ -15,6 +18,7 @@ const EMBREE: Entry = Entry {
             "isa",
             "the widest instructions it may use: sse2, sse4.2, avx, avx2 or avx512; the processor's best",
         ),
+        SOLIDS,
     ],
     traits: Traits { counted: false, leaks: true, ..Traits::EXTERNAL },
     variants: &["quality=high", "quality=low"],
@@ -52,6 +56,7 @@ pub const ENTRIES: &[Entry] = &[
             EMBREE.settings[0],
             EMBREE.settings[1],
             EMBREE.settings[2],
+            SOLIDS,
             ("coherent", "packets that are said to be coherent: those of rasters, on for all, off for none"),
         ],
         trials: &[],
@@ -84,7 +89,7 @@ mod library {
     use crate::registry::{RegistryError, Settings};
     use accel::Builder;
     use accel::settings::one_of;
-    use adapter_embree::{Denormals, EmbreeBuilder, Isa, PacketFlag, Quality, WrapperBuilder};
+    use adapter_embree::{Denormals, EmbreeBuilder, Isa, PacketFlag, Quality, SolidKinds, WrapperBuilder};
     pub use adapter_embree::{Variant, keep_to_one_thread};
 
     /// Why there is no Embree.
@@ -96,7 +101,9 @@ mod library {
         let denormals = settings.read("denormals", |id| one_of(id, Denormals::ALL, |d| d.id()))?;
         let isa = settings.read("isa", |id| one_of(id, Isa::ALL, |isa| isa.id()))?;
         let coherent = settings.read("coherent", |id| one_of(id, PacketFlag::ALL, |flag| flag.id()))?;
+        let solids = settings.read("solids", |id| one_of(id, SolidKinds::ALL, |kinds| kinds.id()))?;
         Ok(Box::new(EmbreeBuilder {
+            solids: solids.unwrap_or(default.solids),
             quality: quality.unwrap_or(default.quality),
             denormals: denormals.unwrap_or(default.denormals),
             isa,
