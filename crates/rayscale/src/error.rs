@@ -72,6 +72,19 @@ impl From<PaperError> for Error {
     }
 }
 
+impl From<model::StudyError> for Error {
+    fn from(error: model::StudyError) -> Self {
+        match error {
+            model::StudyError::Scene(error) => error.into(),
+            model::StudyError::Registry(error) => error.into(),
+            error @ model::StudyError::NoSolids(..) => {
+                Self::usage(error.to_string(), "name a scene of solids, such as teapot-patches or balls-true")
+            }
+            error @ model::StudyError::Build(_) => Self::usage(error.to_string(), "choose another structure"),
+        }
+    }
+}
+
 impl From<rayon::ThreadPoolBuildError> for Error {
     fn from(error: rayon::ThreadPoolBuildError) -> Self {
         Self::usage(error.to_string(), "let the program have more threads")

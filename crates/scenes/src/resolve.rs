@@ -94,9 +94,9 @@ fn resolve(spec: &SceneSpec, depth: u32) -> Result<Staged, SceneError> {
             define(&definition, Some(path.parent().unwrap_or(Path::new("."))), depth)?
         }
         Source::Mesh(path) => {
-            let (mesh, notes) = noted(path, reader::mesh(path)?);
+            let (geometry, notes) = from_file(path)?;
             let source = path.display().to_string();
-            let mut staged = Staged::new(Geometry::Triangles(mesh), up_of(path), source, notes);
+            let mut staged = Staged::new(geometry, up_of(path), source, notes);
             let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             staged.loaded.scene.id = stem.unwrap_or_default();
             staged
@@ -133,9 +133,9 @@ fn define(definition: &Definition, folder: Option<&Path>, depth: u32) -> Result<
         }
         (None, Some(file)) => {
             let source = if file.source.is_empty() { &file.name } else { &file.source };
-            let (mesh, notes) = read(&definition.id, file, folder)?;
+            let (geometry, notes) = read(&definition.id, file, folder)?;
             let up = up_of(Path::new(&file.name));
-            Staged::new(Geometry::Triangles(mesh), up, source.clone(), notes)
+            Staged::new(geometry, up, source.clone(), notes)
         }
         (None, None) if definition.solids.is_empty() => {
             return Err(bad(&origin, "it has no geometry".into()));
@@ -250,7 +250,16 @@ fn noted(path: &Path, polygons: Polygons) -> (Mesh, Vec<String>) {
     (polygons.mesh, note.into_iter().collect())
 }
 
-fn read(id: &str, file: &MeshFile, folder: Option<&Path>) -> Result<(Mesh, Vec<String>), SceneError> {
+/// What a mesh or patch file holds, and in words what of it does not.
+fn from_file(path: &Path) -> Result<(Geometry, Vec<String>), SceneError> {
+    if reader::is_patches(path) {
+        return Ok((Geometry::Solids(reader::patches(path)?), Vec::new()));
+    }
+    let (mesh, notes) = noted(path, reader::mesh(path)?);
+    Ok((Geometry::Triangles(mesh), notes))
+}
+
+fn read(id: &str, file: &MeshFile, folder: Option<&Path>) -> Result<(Geometry, Vec<String>), SceneError> {
     let unavailable = |reason: String| SceneError::Unavailable {
         id: id.to_owned(),
         reason,
@@ -270,12 +279,12 @@ fn read(id: &str, file: &MeshFile, folder: Option<&Path>) -> Result<(Mesh, Vec<S
             )));
         }
     }
-    let (mesh, notes) = noted(&path, reader::mesh(&path)?);
+    let (geometry, notes) = from_file(&path)?;
     match file.triangles {
-        Some(expected) if expected != mesh.triangles.len() as u64 => Err(bad(
+        Some(expected) if expected != geometry.len() as u64 => Err(bad(
             format!("`{id}`"),
-            format!("{} triangles are announced, {} read", expected, mesh.triangles.len()),
+            format!("{} {} are announced, {} read", expected, geometry.kind(), geometry.len()),
         )),
-        _ => Ok((mesh, notes)),
+        _ => Ok((geometry, notes)),
     }
 }

@@ -30,7 +30,7 @@ pub enum Source {
 impl FromStr for SceneSpec {
     type Err = SceneError;
 
-    /// `.toml`, `.obj` and `.ply` make a path of a name; all else is an id. Modifiers follow
+    /// `.toml`, `.obj`, `.ply` and `.bpt` make a path of a name; all else is an id. Modifiers follow
     /// after `@`.
     fn from_str(text: &str) -> Result<Self, SceneError> {
         // A path may hold an @ of its own: the modifiers begin at the last one that a path can end at.
@@ -42,7 +42,9 @@ impl FromStr for SceneSpec {
         let source = match file(base) {
             Some(source) => source,
             None if Path::new(base).is_file() => {
-                return Err(bad("a file must end in .obj, .ply (ASCII) or .toml (a definition)".into()));
+                return Err(bad(
+                    "a file must end in .obj, .ply (ASCII), .bpt (patches) or .toml (a definition)".into(),
+                ));
             }
             None => Source::Id(base.to_owned()),
         };
@@ -54,7 +56,7 @@ fn file(text: &str) -> Option<Source> {
     let path = PathBuf::from(text);
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "toml" => Some(Source::Definition(path)),
-        "obj" | "ply" => Some(Source::Mesh(path)),
+        "obj" | "ply" | "bpt" => Some(Source::Mesh(path)),
         _ => None,
     }
 }

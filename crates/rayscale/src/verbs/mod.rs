@@ -8,6 +8,7 @@ pub mod diff;
 mod hits;
 mod judged;
 pub mod measure;
+pub mod model;
 pub mod paper;
 mod pictures;
 pub mod rank;
@@ -58,5 +59,6 @@ verbs! {
     Structures: structures::Structures,
     Paper: paper::PaperVerb,
     Trade: trade::Trade,
+    Model: model::ModelVerb,
     Completions: completions::Completions,
 }

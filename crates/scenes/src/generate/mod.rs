@@ -4,11 +4,13 @@
 //! integer arithmetic, coordinates from IEEE double arithmetic and `libm`, and are rounded
 //! to single precision once, at the end.
 
+mod blobs;
 mod boxes;
 mod bumps;
 mod clutter;
 mod degenerate;
 mod foliage;
+mod machine_part;
 mod spd;
 mod stadium;
 mod strands;
@@ -134,6 +136,18 @@ pub enum Generator {
         #[serde(default)]
         checkerboard: bool,
     },
+    /// Newell's teapot as its 32 Bézier patches.
+    TeapotPatches,
+    /// Implicit surfaces about a few points each, in the unit cube.
+    Blobs {
+        /// How many.
+        objects: u32,
+    },
+    /// Plates with bosses and bores, each a set of boxes and cylinders.
+    MachinePart {
+        /// How many.
+        objects: u32,
+    },
 }
 
 /// Haines' databases that consist of solids.
@@ -203,6 +217,11 @@ impl Generator {
         let mesh = match *self {
             Self::Boxes { objects, side } => return Ok(Geometry::Boxes(boxes::boxes(objects, side, seed))),
             Self::StackedBoxes { side } => return Ok(Geometry::Boxes(degenerate::stacked_boxes(side))),
+            Self::TeapotPatches => return Ok(Geometry::Solids(spd::teapot_patches())),
+            Self::Blobs { objects } => return Ok(Geometry::Solids(blobs::blobs(objects, seed))),
+            Self::MachinePart { objects } => {
+                return Ok(Geometry::Solids(machine_part::machine_part(objects, seed)));
+            }
             Self::Triangles { objects, edge } => triangles::scattered(objects, edge, seed),
             Self::Needles { objects, length, aspect } => triangles::needles(objects, length, aspect, seed),
             Self::Bumps { objects, height } => bumps::bumps(objects, height),
@@ -243,6 +262,10 @@ impl Generator {
             | Self::Strands { objects }
             | Self::Clutter { objects } => u64::from(objects),
             Self::Degenerate { objects, .. } => 3 * u64::from(objects),
+            Self::TeapotPatches => 32,
+            // Each is as large as many triangles.
+            Self::Blobs { objects } => 64 * u64::from(objects),
+            Self::MachinePart { objects } => 256 * u64::from(objects),
             Self::StackedBoxes { side } => u64::from(side).saturating_pow(3),
             Self::Stadium { cells: n, .. } | Self::Teapot { cells: n, .. } => cells(n).saturating_mul(66),
             Self::Sombrero { size_factor } => {
@@ -299,7 +322,9 @@ impl Generator {
             | Self::Ball { objects, .. }
             | Self::Foliage { objects }
             | Self::Strands { objects }
-            | Self::Clutter { objects } => objects,
+            | Self::Clutter { objects }
+            | Self::Blobs { objects }
+            | Self::MachinePart { objects } => objects,
             _ => 1,
         };
         if size < least {

@@ -6,12 +6,14 @@
 mod lines;
 mod meshes;
 mod obj;
+mod patches;
 mod ply;
 mod polygons;
 mod position;
 mod second_look;
 
 pub use meshes::find;
+pub use patches::{is_patches, patches};
 pub use polygons::Polygons;
 
 use crate::checksum::hex;

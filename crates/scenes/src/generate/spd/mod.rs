@@ -25,7 +25,7 @@ pub use mount::mount;
 pub use rings::rings;
 pub use shells::shells;
 pub use sombrero::sombrero;
-pub use teapot::{checkerboard, teapot};
+pub use teapot::{checkerboard, teapot, teapot_patches};
 pub use tetra::tetra;
 pub use tree::tree;
 

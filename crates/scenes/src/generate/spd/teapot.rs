@@ -79,6 +79,12 @@ fn patches() -> Vec<Patch> {
     patches
 }
 
+/// The 32 patches as objects.
+pub fn teapot_patches() -> Vec<accel::Solid> {
+    let patch = |patch: Patch| accel::Solid::Patch(accel::solid::Patch::new(patch.map(|row| row.map(round))));
+    patches().into_iter().map(patch).collect()
+}
+
 fn bernstein(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
     [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
