@@ -6,6 +6,7 @@ use crate::modifier::Transform;
 use crate::solids::Tables;
 use accel::Solid;
 use serde::Deserialize;
+use std::path::Path;
 
 /// One TOML file under `scenes/`, or a user's own.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -82,10 +83,18 @@ impl Definition {
     /// # Errors
     /// In words, what is wrong and where in the text.
     pub fn parse(text: &str) -> Result<Self, String> {
+        Self::parse_in(text, None)
+    }
+
+    /// As [`Definition::parse`], of a file in this folder.
+    ///
+    /// # Errors
+    /// As [`Definition::parse`].
+    pub fn parse_in(text: &str, folder: Option<&Path>) -> Result<Self, String> {
         let mut definition: Self =
             toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
         definition.validate()?;
-        definition.solids = definition.tables.solids(text)?;
+        definition.solids = definition.tables.solids(text, folder)?;
         Ok(definition)
     }
 

@@ -90,8 +90,10 @@ fn resolve(spec: &SceneSpec, depth: u32) -> Result<Staged, SceneError> {
         Source::Definition(path) => {
             let text =
                 fs::read_to_string(path).map_err(|source| SceneError::Io { path: path.clone(), source })?;
-            let definition = Definition::parse(&text).map_err(|reason| bad(path.display(), reason))?;
-            define(&definition, Some(path.parent().unwrap_or(Path::new("."))), depth)?
+            let folder = path.parent().unwrap_or(Path::new("."));
+            let definition = Definition::parse_in(&text, Some(folder));
+            let definition = definition.map_err(|reason| bad(path.display(), reason))?;
+            define(&definition, Some(folder), depth)?
         }
         Source::Mesh(path) => {
             let (geometry, notes) = from_file(path)?;

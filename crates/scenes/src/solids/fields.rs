@@ -2,34 +2,76 @@
 
 use accel::{Solid, Vec3};
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use toml::{Spanned, Value};
 
 /// A solid's table while it is read.
 pub struct Table<'a> {
-    number: usize,
+    /// What the table says, such as `solid 3`.
+    name: String,
     kind: String,
     /// Where it begins, as far as its fields tell.
     line: usize,
     fields: BTreeMap<&'a str, (usize, &'a Value)>,
     /// The lines of those that were read.
     read: BTreeMap<&'static str, usize>,
+    /// The definition's.
+    folder: Option<&'a Path>,
 }
 
 impl<'a> Table<'a> {
     /// The `number`th solid of the definition `text`.
-    pub fn new(number: usize, table: &'a BTreeMap<String, Spanned<Value>>, text: &str) -> Self {
+    pub fn new(
+        number: usize,
+        table: &'a BTreeMap<String, Spanned<Value>>,
+        text: &str,
+        folder: Option<&'a Path>,
+    ) -> Self {
         let line = |at: usize| 1 + text.bytes().take(at).filter(|byte| *byte == b'\n').count();
         let field = |(name, value): (&'a String, &'a Spanned<Value>)| {
             (name.as_str(), (line(value.span().start), value.get_ref()))
         };
         let fields: BTreeMap<_, _> = table.iter().map(field).collect();
         let first = fields.values().map(|(line, _)| *line).min();
-        Self { number, kind: String::new(), line: first.unwrap_or(1), fields, read: BTreeMap::new() }
+        Self {
+            name: format!("solid {number}"),
+            kind: String::new(),
+            line: first.unwrap_or(1),
+            fields,
+            read: BTreeMap::new(),
+            folder,
+        }
+    }
+
+    /// The tables of a field, which are parts of this one's solid. Where they stand is known no better than where the field does.
+    pub fn parts(&mut self, field: &'static str) -> Result<Vec<Self>, String> {
+        let value = self.value(field)?;
+        let line = self.read.get(field).copied().unwrap_or(self.line);
+        let tables: Option<Vec<&'a toml::Table>> =
+            value.as_array().and_then(|parts| parts.iter().map(Value::as_table).collect());
+        let Some(tables) = tables.filter(|tables| tables.len() >= 2) else {
+            return Err(self.refuse(field, "must be two tables or more, each a solid"));
+        };
+        let part = |(number, table): (usize, &'a toml::Table)| Self {
+            name: format!("{} ({}), part {}", self.name, self.kind, number + 1),
+            kind: String::new(),
+            line,
+            fields: table.iter().map(|(name, value)| (name.as_str(), (line, value))).collect(),
+            read: BTreeMap::new(),
+            folder: self.folder,
+        };
+        Ok(tables.into_iter().enumerate().map(part).collect())
+    }
+
+    /// A file, which a definition names relative to its own folder.
+    pub fn path(&mut self, field: &'static str) -> Result<PathBuf, String> {
+        let name = self.text(field)?;
+        Ok(self.folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name)))
     }
 
     fn error(&self, line: usize, what: &str) -> String {
         let kind = if self.kind.is_empty() { String::new() } else { format!(" ({})", self.kind) };
-        format!("line {line}, solid {}{kind}: {what}", self.number)
+        format!("line {line}, {}{kind}: {what}", self.name)
     }
 
     /// Something wrong with a field that was read.
@@ -115,9 +157,14 @@ impl<'a> Table<'a> {
         solid.validate().map_err(|error| self.refuse(self.said(error.field), &error.reason))
     }
 
-    /// A cylinder's radius stands for both of the cone that it becomes.
+    /// A cylinder's radius stands for both of the cone that it becomes, a file for its mesh.
     fn said(&self, field: &'static str) -> &'static str {
-        if !self.read.contains_key(field) && field.ends_with("radius") { "radius" } else { field }
+        match field {
+            field if self.read.contains_key(field) => field,
+            field if field.ends_with("radius") => "radius",
+            "mesh" => "file",
+            field => field,
+        }
     }
 }
 

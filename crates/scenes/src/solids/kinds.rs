@@ -1,10 +1,17 @@
 //! The kinds of solids and what each is told.
 
 use super::fields::Table;
-use accel::solid::{Cone, Disc, Quadric, Sphere, Torus};
+use crate::reader;
+use accel::solid::{
+    Combination, Cone, Csg, Disc, Expression, Facets, Implicit, Patch, Quadric, Sphere, Torus,
+};
 use accel::{Aabb, Solid};
+use std::sync::Arc;
 
-const KINDS: [&str; 8] = ["triangle", "box", "sphere", "cone", "cylinder", "disc", "quadric", "torus"];
+const KINDS: [&str; 12] = [
+    "triangle", "box", "sphere", "cone", "cylinder", "disc", "quadric", "torus", "implicit", "patch",
+    "facets", "csg",
+];
 
 /// The solid that a table says; fields that are left over and values out of range are for [`Table::finish`].
 pub fn read(table: &mut Table<'_>) -> Result<Solid, String> {
@@ -36,10 +43,44 @@ pub fn read(table: &mut Table<'_>) -> Result<Solid, String> {
             major: table.number("major")?,
             minor: table.number("minor")?,
         }),
+        "implicit" => {
+            let text = table.text("function")?;
+            let function =
+                Expression::parse(text).map_err(|slip| table.refuse("function", &slip.to_string()))?;
+            Solid::Implicit(Implicit::new(Arc::new(function), bounds(table)?))
+        }
+        "patch" => {
+            let points = table.points::<16>("points")?;
+            Solid::Patch(Patch::new(std::array::from_fn(|j| std::array::from_fn(|i| points[4 * j + i]))))
+        }
+        "facets" => {
+            let path = table.path("file")?;
+            let polygons = reader::mesh(&path)
+                .map_err(|error| table.refuse("file", &format!("can't be had: {error}")))?;
+            Solid::Facets(Facets::new(Arc::new(polygons.mesh)))
+        }
+        "csg" => csg(table)?,
         _ => return Err(table.unknown_kind(&KINDS)),
     })
 }
 
 fn bounds(table: &mut Table<'_>) -> Result<Aabb, String> {
     Ok(Aabb { min: table.point("min")?, max: table.point("max")? })
+}
+
+fn csg(table: &mut Table<'_>) -> Result<Solid, String> {
+    let name = table.text("combination")?;
+    let combination = Combination::parse(name).ok_or_else(|| {
+        table.refuse("combination", &format!("must be union, intersection or difference, not `{name}`"))
+    })?;
+    let parts: Result<Vec<Solid>, String> = table
+        .parts("parts")?
+        .into_iter()
+        .map(|mut part| {
+            let solid = read(&mut part)?;
+            part.finish(&solid)?;
+            Ok(solid)
+        })
+        .collect();
+    Csg::of(combination, parts?).ok_or_else(|| table.refuse("parts", "are none"))
 }
