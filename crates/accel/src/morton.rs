@@ -32,6 +32,12 @@ type Counts = [[u32; VALUES]; DIGITS];
 /// From this many keys on the sort uses the threads of the current pool.
 const PARALLEL: usize = 1 << 15;
 
+/// Bytes that [`sort_by_key`] takes at most for so many keys and threads, besides the keys.
+pub const fn sort_bytes(keys: usize, threads: usize) -> usize {
+    let counts = if threads > DIGITS { threads + 1 } else { DIGITS };
+    size_of::<u64>() * keys + counts * size_of::<[u32; VALUES]>()
+}
+
 /// Sorts by the upper 32 bits, equal ones staying in order: a radix sort, least digit first.
 pub fn sort_by_key(mut keys: Vec<u64>) -> Vec<u64> {
     if keys.len() < VALUES / 4 {

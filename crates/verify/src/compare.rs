@@ -1,6 +1,6 @@
 //! One structure held to brute force and to the oracle.
 
-use accel::{Accel, Builder, Hit, Ray, RaySet, Scene, Workload};
+use accel::{Accel, Builder, Geometry, Hit, Ray, RaySet, Scene, Workload};
 use baselines::Brute;
 use harness::check::oracle_of;
 use harness::guard::guard;
@@ -43,59 +43,142 @@ pub struct Compared {
 /// Rays of which each is traced alone besides.
 const ALONE: usize = 16;
 
-/// Holds the structure `spec` to brute force with the same kernel: all rays together for hits and for occlusion, some of
-/// them alone. With the exact kernel the first `exact` of them are held to the oracle.
+/// Rays through a scene with the answers of brute force, which any number of structures with its kernel are held to.
+pub struct Judged<'a> {
+    scene: &'a Scene,
+    rays: &'a RaySet,
+    workload: Workload,
+    kernel: KernelId,
+    brute: Box<dyn Accel + 'a>,
+    expected: Vec<Option<Hit>>,
+    hits: u64,
+}
+
+impl<'a> Judged<'a> {
+    /// Asks brute force with this kernel.
+    ///
+    /// # Errors
+    /// Says why it can't be built.
+    pub fn new(
+        scene: &'a Scene,
+        rays: &'a RaySet,
+        workload: Workload,
+        kernel: KernelId,
+    ) -> Result<Self, Difference> {
+        let brute = Brute::new(kernel).build(scene, &Workload::GENERAL).map_err(|error| Difference {
+            structure: format!("brute:kernel={kernel}"),
+            ray: None,
+            what: error.to_string(),
+        })?;
+        let mut expected = vec![None; rays.len()];
+        brute.trace(rays, &mut expected);
+        let hits = expected.iter().flatten().count() as u64;
+        Ok(Self { scene, rays, workload, kernel, brute, expected, hits })
+    }
+
+    /// Rays that hit something.
+    pub fn hits(&self) -> u64 {
+        self.hits
+    }
+
+    /// Holds the structure `spec`, of the same kernel, to the answers: all rays together for hits and for occlusion, some of
+    /// them alone. Returns how many rays it answered: none where it needs more memory than there is.
+    ///
+    /// # Errors
+    /// The first difference, a build that fails for another reason than memory, a panic.
+    pub fn hold(&self, spec: &str) -> Result<u64, Difference> {
+        let wrong = |ray: Option<Ray>, what: String| Difference { structure: spec.into(), ray, what };
+        let choice = registry::parse(spec).map_err(|error| wrong(None, error.to_string()))?;
+        let built = match guarded_build(&choice, self.scene, &self.workload) {
+            Ok(built) => built,
+            Err(failure) if failure.is_too_large() => return Ok(0),
+            Err(failure) => return Err(wrong(None, failure.to_string())),
+        };
+        let mut hits = vec![None; self.rays.len()];
+        let mut occluded = vec![false; self.rays.len()];
+        guard("tracing", || {
+            built.trace(self.rays, &mut hits);
+            built.trace_occluded(self.rays, &mut occluded);
+        })
+        .map_err(|panic| wrong(None, panic.to_string()))?;
+        let answers = hits.iter().zip(&occluded).zip(&self.expected);
+        for (i, ((hit, occluded), right)) in answers.enumerate() {
+            if !same(hit, right) || *occluded != right.is_some() {
+                let what = format!("{hit:?}, occluded: {occluded}; brute force: {right:?}");
+                return Err(wrong(Some(self.rays.ray(i)), what));
+            }
+        }
+        // Spread over all rays; where one image is wanted no ray is asked for alone.
+        let alone = if self.workload.general { ALONE } else { 0 };
+        for i in (0..self.rays.len()).step_by((self.rays.len() / ALONE).max(1)).take(alone) {
+            let (ray, right) = (self.rays.ray(i), &self.expected[i]);
+            let (hit, any) = guard("tracing", || (built.closest(&ray), built.occluded(&ray)))
+                .map_err(|panic| wrong(Some(ray), panic.to_string()))?;
+            if !same(&hit, right) || any != right.is_some() {
+                let what = format!("alone {hit:?}, occluded: {any}; brute force: {right:?}");
+                return Err(wrong(Some(ray), what));
+            }
+            guard("tracing", || all_hits(&*self.brute, &*built, &ray))
+                .map_err(|panic| panic.to_string())
+                .flatten()
+                .map_err(|what| wrong(Some(ray), what))?;
+        }
+        Ok(self.rays.len() as u64)
+    }
+
+    /// Holds the answers to so many of the rays to the oracle, if the kernel is the exact one and the objects are triangles.
+    /// Returns how many it judged.
+    ///
+    /// # Errors
+    /// The first answer that is not the true one.
+    pub fn by_oracle(&self, rays: usize) -> Result<u64, Difference> {
+        if self.kernel != KernelId::Exact || !matches!(self.scene.geometry, Geometry::Triangles(_)) {
+            return Ok(0);
+        }
+        let oracle = oracle_of(self.scene);
+        let mut judged = 0;
+        for i in (0..self.rays.len()).step_by((self.rays.len() / rays.max(1)).max(1)).take(rays) {
+            let ray = self.rays.ray(i);
+            let truth = oracle.closest(&ray);
+            let t = truth.as_ref().map_or(0.0, |(_, exact)| exact.t.to_f64());
+            // Where t is less than the least normal number, its rounding may exceed what the invariant allows.
+            if t != 0.0 && t.abs() < f64::from(f32::MIN_POSITIVE) {
+                continue;
+            }
+            judged += 1;
+            let (object, t) = match &truth {
+                Some((object, exact)) => (Some(*object), Some(exact.t.to_f32())),
+                None => (None, None),
+            };
+            let hit = self.expected[i];
+            if hit.map(|hit| hit.object) != object || hit.map(|hit| hit.t) != t {
+                return Err(Difference {
+                    structure: "brute:kernel=exact".into(),
+                    ray: Some(ray),
+                    what: format!("{hit:?}; true: {object:?} at {t:?}"),
+                });
+            }
+        }
+        Ok(judged)
+    }
+}
+
+/// Holds one structure to brute force with the same kernel on a list of rays and, with the exact kernel, brute force to the
+/// oracle on `exact` of them.
 ///
 /// # Errors
-/// The first difference, a build that fails for another reason than memory, a panic.
+/// Those of [`Judged`].
 pub fn compare(scene: &Scene, rays: &[Ray], spec: &str, exact: usize) -> Result<Compared, Difference> {
-    let wrong =
-        |ray: Option<&Ray>, what: String| Difference { structure: spec.into(), ray: ray.copied(), what };
-    let choice = registry::parse(spec).map_err(|error| wrong(None, error.to_string()))?;
+    let choice = registry::parse(spec).map_err(|error| Difference {
+        structure: spec.into(),
+        ray: None,
+        what: error.to_string(),
+    })?;
     let kernel = choice.built_in_kernel().unwrap_or(KernelId::Exact);
-    let built = match guarded_build(&choice, scene, &Workload::GENERAL) {
-        Ok(built) => built,
-        Err(failure) if failure.is_too_large() => return Ok(Compared::default()),
-        Err(failure) => return Err(wrong(None, failure.to_string())),
-    };
-    let brute =
-        Brute::new(kernel).build(scene, &Workload::GENERAL).map_err(|e| wrong(None, e.to_string()))?;
     let set = RaySet::List(rays.to_vec());
-    let (mut expected, mut hits) = (vec![None; rays.len()], vec![None; rays.len()]);
-    let mut occluded = vec![false; rays.len()];
-    brute.trace(&set, &mut expected);
-    guard("tracing", || {
-        built.trace(&set, &mut hits);
-        built.trace_occluded(&set, &mut occluded);
-    })
-    .map_err(|panic| wrong(None, panic.to_string()))?;
-    for (i, ray) in rays.iter().enumerate() {
-        let right = expected[i];
-        if !same(&hits[i], &right) || occluded[i] != right.is_some() {
-            let what = format!("{:?}, occluded: {}; brute force: {right:?}", hits[i], occluded[i]);
-            return Err(wrong(Some(ray), what));
-        }
-    }
-    for (i, ray) in rays.iter().enumerate().take(ALONE) {
-        let (hit, any) = (built.closest(ray), built.occluded(ray));
-        if !same(&hit, &expected[i]) || any != expected[i].is_some() {
-            return Err(wrong(
-                Some(ray),
-                format!("alone {hit:?}, occluded: {any}; brute force: {:?}", expected[i]),
-            ));
-        }
-    }
-    for ray in rays.iter().take(ALONE) {
-        all_hits(&*brute, &*built, ray).map_err(|what| wrong(Some(ray), what))?;
-    }
-    let judged = if kernel == KernelId::Exact {
-        by_oracle(scene, &rays[..exact.min(rays.len())], &hits)
-    } else {
-        Ok(0)
-    };
-    let exact = judged.map_err(|(i, what)| wrong(Some(&rays[i]), what))?;
-    let hits = expected.iter().flatten().count() as u64;
-    Ok(Compared { rays: rays.len() as u64, hits, exact })
+    let judged = Judged::new(scene, &set, Workload::GENERAL, kernel)?;
+    let rays = judged.hold(spec)?;
+    Ok(Compared { rays, hits: judged.hits(), exact: judged.by_oracle(exact)? })
 }
 
 /// Holds every crossing of a ray to brute force, if the structure tells all.
@@ -118,27 +201,4 @@ pub fn same(a: &Option<Hit>, b: &Option<Hit>) -> bool {
         (None, None) => true,
         _ => false,
     }
-}
-
-/// How many hits are the true ones, or the first that is not.
-fn by_oracle(scene: &Scene, rays: &[Ray], hits: &[Option<Hit>]) -> Result<u64, (usize, String)> {
-    let oracle = oracle_of(scene);
-    let mut judged = 0;
-    for (i, ray) in rays.iter().enumerate() {
-        let truth = oracle.closest(ray);
-        let t = truth.as_ref().map_or(0.0, |(_, exact)| exact.t.to_f64());
-        // Where t is less than the least normal number, its rounding may exceed what the invariant allows.
-        if t != 0.0 && t.abs() < f64::from(f32::MIN_POSITIVE) {
-            continue;
-        }
-        judged += 1;
-        let (object, t) = match &truth {
-            Some((object, exact)) => (Some(*object), Some(exact.t.to_f32())),
-            None => (None, None),
-        };
-        if hits[i].map(|hit| hit.object) != object || hits[i].map(|hit| hit.t) != t {
-            return Err((i, format!("{:?}; true: {object:?} at {t:?}", hits[i])));
-        }
-    }
-    Ok(judged)
 }

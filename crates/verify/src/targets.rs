@@ -1,6 +1,6 @@
 //! What a fuzzer calls: any bytes in, no panic, no hang, no wrong answer.
 
-use crate::cases::{self, Bounds, Reach};
+use crate::cases::{self, Reach, WIDE};
 use crate::compare::compare;
 use crate::{Bytes, Numbers};
 use harness::registry::StructureSpec;
@@ -94,11 +94,10 @@ pub fn settings(bytes: &[u8]) {
 
 /// A scene, rays and settings: every built-in structure against brute force and the oracle.
 pub fn structures(bytes: &[u8]) {
-    const WITHIN: Bounds = Bounds { scale: [-100, 100], offset: 22, origins: 60 };
     let mut numbers = Bytes(bytes);
-    let reach = Reach::new(&mut numbers, &WITHIN);
+    let reach = Reach::new(&mut numbers, &WIDE);
     let spec = cases::structure(&mut numbers);
-    let Ok(scene) = cases::scene(&mut numbers, &reach, 24) else { return };
+    let Ok((_, scene)) = cases::scene(&mut numbers, &reach, 24) else { return };
     let count = 1 + numbers.below(32) as usize;
     let rays = cases::rays(&mut numbers, &scene, &reach, count);
     if let Err(difference) = compare(&scene, &rays, &spec, rays.len()) {

@@ -10,6 +10,8 @@
 //! cargo xtask fuzz              every fuzz target for a while
 //! cargo xtask sanitize          the tests of what holds `unsafe` under sanitizers and miri
 //! cargo xtask supply            licences, advisories and sources of all dependencies
+//! cargo xtask interrupt         a measurement killed, or out of disk, at a thousand random moments
+//! cargo xtask processors        the program on emulated x86-64 processors that lack instructions
 //! cargo xtask aarch64           the structures' tests with NEON, emulated if need be
 //! ```
 #![forbid(unsafe_code)]
@@ -21,11 +23,13 @@ mod compare;
 mod embree;
 mod fuzz;
 mod host;
+mod interrupt;
 mod meshes;
 mod native;
 mod package;
 mod pip;
 mod places;
+mod processors;
 mod sanitize;
 mod setup;
 mod share;
@@ -49,6 +53,8 @@ usage: cargo xtask <command>
   fuzz [--time 10m] every fuzz target for so long, a minute otherwise; needs nightly Rust and cargo-fuzz
   sanitize          the tests of what holds unsafe code under address and thread sanitizers and miri
   supply            licences, advisories and sources of all dependencies; needs cargo-deny
+  interrupt [N]     a short measurement killed, or out of disk, at a thousand random moments, or N
+  processors        the program on emulated x86-64 processors without AVX, BMI or LZCNT: equal hits?
   aarch64           the tests of the contract and the structures for aarch64, emulated on other processors
 
 Exit codes: 0 done, 1 a step failed, 2 bad usage.";
@@ -98,6 +104,14 @@ fn main() -> ExitCode {
         },
         ("sanitize", true) => sanitize::run(&places),
         ("supply", true) => sanitize::supply(&places),
+        ("interrupt", _) => match interrupt::moments(&rest) {
+            Ok(moments) => interrupt::run(&places, moments),
+            Err(why) => {
+                eprintln!("xtask: {why}");
+                ExitCode::from(2)
+            }
+        },
+        ("processors", true) => processors::run(&places),
         ("aarch64", true) => aarch64::run(&places),
         ("help" | "--help" | "-h", _) => {
             println!("{USAGE}");

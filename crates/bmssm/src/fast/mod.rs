@@ -64,7 +64,7 @@ impl<'s> WithObjects<'s> for Build {
 
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
-        let plan = Plan::new(&self.settings, objects.len(), &self.workload, limit);
+        let plan = Plan::new(&self.settings, objects.len(), &self.workload, limit, O::bytes_of_blocks);
         if plan.bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
         }

@@ -17,14 +17,22 @@ pub struct Plan {
     pub raster: Option<(Raster, raster::Settings)>,
     /// The maps for all other rays.
     pub general: Option<general::Settings>,
-    /// Most bytes that it will take, geometry copies included.
+    /// Most bytes that it will take, geometry copies included: for rays of any kind at any moment of building, for an image once
+    /// it is built.
     pub bytes: u128,
     reasons: Vec<String>,
 }
 
 impl Plan {
     /// Plans for a scene of so many objects, to take at most `limit` bytes where that can be.
-    pub fn new(settings: &Settings, objects: usize, workload: &Workload, limit: u128) -> Self {
+    /// `copy` tells what a copy of the geometry takes for a number of slots.
+    pub fn new(
+        settings: &Settings,
+        objects: usize,
+        workload: &Workload,
+        limit: u128,
+        copy: impl Fn(usize) -> u128,
+    ) -> Self {
         let mut reasons = Vec::new();
         let mut bytes = 0;
         let raster = workload.raster.map(|image| {
@@ -38,12 +46,14 @@ impl Plan {
             (image, settings.raster())
         });
         let general = workload.general.then(|| {
-            let blocks = objects.div_ceil(BLOCK) as u128;
-            let least = bytes + blocks * GENERAL_BLOCK_BYTES;
-            let rows = least + blocks * ROWS_BLOCK_BYTES;
+            let threads = accel::parallel::threads();
+            let least = bytes + general::bytes(objects, threads, |slots| (slots * size_of::<u32>()) as u128);
+            let rows = bytes + general::bytes(objects, threads, &copy);
             let (storage, why) = match settings.geometry {
                 Some(storage) => (storage, "as set"),
-                None if rows > limit => (Storage::Scene, "copies would take more than there is"),
+                None if rows > limit && least < rows => {
+                    (Storage::Scene, "copies would take more than there is")
+                }
                 None => (Storage::Rows, "a copy for speed"),
             };
             bytes = if storage == Storage::Rows { rows } else { least };
@@ -57,12 +67,6 @@ impl Plan {
 
 /// Per object: maps, and a copy of its geometry.
 const RASTER_BYTES: u32 = 16 + 52;
-
-/// Per block: maps, its share of the tree, and the numbers of 64 objects.
-const GENERAL_BLOCK_BYTES: u128 = 224 + 112 + 4 * BLOCK as u128;
-
-/// Per block: a copy of 64 objects' geometry.
-const ROWS_BLOCK_BYTES: u128 = 48 * BLOCK as u128;
 
 fn stretch(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> usize {
     let (stretch, why) = match settings.stretch {

@@ -59,7 +59,9 @@ fn the_plan_bounds_what_is_built() {
     let scene = scene();
     for workload in [Workload::raster(image()), Workload::GENERAL] {
         let bmssm = Bmssm::default();
-        let plan = Plan::new(&bmssm.settings, scene.geometry.len(), &workload, u128::MAX);
+        let plan = Plan::new(&bmssm.settings, scene.geometry.len(), &workload, u128::MAX, |slots| {
+            64 * slots as u128
+        });
         let footprint = bmssm.build(&scene, &workload).unwrap().footprint();
         assert!(footprint.bytes(Group::Structure) > 0);
         assert!(footprint.total() as u128 <= plan.bytes + 4096, "{footprint:?} {}", plan.bytes);

@@ -75,6 +75,11 @@ const CLUSTER: usize = 8;
 /// Objects that a cluster has at most.
 const MOST: usize = 16;
 
+/// Clusters of so many objects at most: what is over of each run that is cut counts as well.
+pub fn most_clusters(objects: usize) -> usize {
+    objects.div_ceil(CLUSTER) + objects.div_ceil(MOST) + 2
+}
+
 /// Runs of neighbours along the curve that share a cell: the place of the first among `items`, and how many there
 /// are. The first key is that of the item at `place`.
 fn clusters(items: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
@@ -178,6 +183,16 @@ struct Room<'o> {
     blocks: &'o mut [Item],
 }
 
+/// Bytes that a part takes while it waits.
+pub const PART_BYTES: usize = 2 * size_of::<Part>() + size_of::<(Part, Room)>();
+
+/// Bytes that so many threads take to cut parts of so many objects together.
+pub fn cut_bytes(objects: usize, threads: usize) -> usize {
+    let objects = objects.min(threads * PART);
+    objects * (2 * size_of::<Item>() + 1)
+        + threads * (PART / BLOCK + 2) * (size_of::<usize>() + size_of::<(usize, usize, bool)>())
+}
+
 /// What a thread keeps from part to part.
 #[derive(Default)]
 struct Buffers {
@@ -207,10 +222,14 @@ impl Task for Cut<'_, '_> {
         let Self { shape, items: all, part, room, buffers, stretch } = self;
         let Buffers { items, scratch, marks, open } = buffers;
         let Part { clusters, objects } = part;
-        let most = PART.max(clusters.len());
-        scratch.resize(most, Item::EMPTY);
-        marks.resize(most, 0);
         items.clear();
+        if scratch.len() < objects {
+            // Given back first, and no more than a part has: together threads take no more than all parts have.
+            (*items, *scratch, *marks) = Default::default();
+            items.reserve_exact(objects);
+            *scratch = vec![Item::EMPTY; objects];
+            *marks = vec![0; objects];
+        }
         open.clear();
         // By clusters, as far as wanted. What is left over of a block belongs to the next stretch.
         let mut stretches = Vec::with_capacity(PART / BLOCK + 2);

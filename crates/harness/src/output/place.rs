@@ -7,7 +7,7 @@ use tempfile::{Builder, NamedTempFile};
 
 /// What a path names, links followed.
 pub(super) enum Place {
-    /// No file: a device, a pipe, or what a path below `/dev` or `/proc` stands for.
+    /// No file: a device, a pipe, or what is open already.
     Direct(PathBuf),
     /// A file, or nothing yet.
     File(Regular),
@@ -19,13 +19,16 @@ pub(super) struct Regular {
     before: Option<Metadata>,
 }
 
+/// Where names stand for what is open: a file that is renamed would not be it. Elsewhere below `/dev`, in `/dev/shm` for
+/// instance, there are files as well.
+const OPEN: [&str; 5] = ["/dev/fd", "/dev/stdin", "/dev/stdout", "/dev/stderr", "/proc"];
+
 /// Links that are followed one after another, as systems have it.
 const MOST_LINKS: usize = 40;
 
 impl Place {
     pub fn of(path: &Path) -> io::Result<Self> {
-        // There the names stand for what is open: a file that is renamed would not be it.
-        if path.starts_with("/dev") || path.starts_with("/proc") {
+        if OPEN.iter().any(|names| path.starts_with(names)) {
             return Ok(Self::Direct(path.to_owned()));
         }
         match fs::metadata(path) {

@@ -103,6 +103,17 @@ mod unix {
     }
 
     #[test]
+    fn files_among_devices_are_files() -> io::Result<()> {
+        // Systems without it have nothing to be tested here.
+        let Ok(folder) = tempfile::tempdir_in("/dev/shm") else { return Ok(()) };
+        let path = folder.path().join("out");
+        write_whole(&path, text("longer than what replaces it"))?;
+        write_whole(&path, text("short"))?;
+        assert_eq!(fs::read_to_string(&path)?, "short\n");
+        Ok(())
+    }
+
+    #[test]
     fn a_planted_link_is_not_written_through() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("out");

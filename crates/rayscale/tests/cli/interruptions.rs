@@ -146,3 +146,62 @@ fn another_measurement_is_refused() {
     assert_eq!(output.status.code(), Some(2));
     assert!(said.contains("its seed was `1` and is `7`") && said.contains("--out another name"), "{said}");
 }
+
+/// A short measurement, in a shell that lets files grow to so many blocks of 512 bytes.
+fn short(folder: &Folder, blocks: &str) -> Command {
+    let mut command = Command::new("sh");
+    command.env("RAYSCALE", env!("CARGO_BIN_EXE_rayscale")).current_dir(folder.folder());
+    let words = "measure --scene unit-one --rays random,axis,parallel --size 8 --rounds 2 --passes 2 --structure ssm \
+                 --structure bmssm --no-memory --out record.json --resume";
+    // The signal that says that a file is too large is turned into an error.
+    command.args(["-c", &format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$RAYSCALE\" {words}")]);
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    command
+}
+
+/// Cells of [`short`].
+const CELLS: usize = 6;
+
+/// Half of the moments are kills, at any time of the run; at the other half the disk is full, after any number of blocks.
+/// `cargo xtask interrupt` asks for a thousand.
+#[test]
+fn at_random_moments_records_are_whole_and_completed() {
+    let moments: u32 = std::env::var("RAYSCALE_MOMENTS").map_or(8, |text| text.parse().expect("a number"));
+    let whole = || {
+        let (begun, folder) = (Instant::now(), Folder::new());
+        assert!(short(&folder, "unlimited").status().expect("a process").success());
+        (begun.elapsed(), folder.read("record.json").len())
+    };
+    // The first is slower than others, which would be over before they are killed.
+    let (time, size) = whole().min(whole());
+    let mut random = scenes::Random::new(1);
+    let (mut killed, mut full, mut partial) = (0, 0, 0);
+    for moment in 0..moments {
+        let folder = Folder::new();
+        let path = folder.path("record.json");
+        if moment % 2 == 0 {
+            let mut child = short(&folder, "unlimited").spawn().expect("a process");
+            std::thread::sleep(time.mul_f64(random.unit()));
+            stop(&child, Signal::KILL);
+            killed += u32::from(!child.wait().expect("a process").success());
+        } else {
+            let blocks = random.below(size / 512 + 2).to_string();
+            let output = short(&folder, &blocks).output().expect("a process");
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!([Some(0), Some(2)].contains(&output.status.code()), "{said}");
+            assert!(!said.contains("panicked"), "{said}");
+            full += u32::from(output.status.code() == Some(2));
+        }
+        let before = cells(&path);
+        partial += u32::from(!before.is_empty() && before.len() < CELLS);
+        let output = short(&folder, "unlimited").output().expect("a process");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let now = cells(&path);
+        assert!(now.len() == CELLS && goes_on(&before, &now), "moment {moment}");
+        assert!(read(&path).expect("a record").run.is_some_and(|run| run.complete));
+    }
+    println!(
+        "{moments} moments: {killed} kills, {full} full disks, {partial} records of some cells; all whole and completed"
+    );
+    assert!(killed > 0 && full > 0);
+}

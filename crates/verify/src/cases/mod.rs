@@ -1,0 +1,27 @@
+//! Scenes, rays and settings from numbers: anything that the suite accepts, and much that it has to refuse.
+
+mod image;
+mod rays;
+mod reach;
+mod scene;
+mod structure;
+
+pub use image::image;
+pub use rays::rays;
+pub use reach::{Bounds, Reach, WIDE};
+pub use scene::{SHAPES, Shape, scene, scene_of};
+pub use structure::{structure, structure_with};
+
+use crate::Numbers;
+use accel::Vec3;
+
+/// Each coordinate from −1 to 1.
+fn point(numbers: &mut impl Numbers) -> Vec3 {
+    Vec3::new(numbers.unit(), numbers.unit(), numbers.unit())
+}
+
+/// One of nine values on each axis.
+fn lattice(numbers: &mut impl Numbers) -> Vec3 {
+    let mut at = || (numbers.below(9) as f32 - 4.0) / 4.0;
+    Vec3::new(at(), at(), at())
+}
