@@ -9,12 +9,12 @@ use primitives::KernelId;
 fn raster() -> Raster {
     Raster {
         projection: Projection::Perspective,
-        rows: 48,
-        cols: 64,
+        rows: 24,
+        cols: 32,
         origin: Vec3::new(0.1, 0.2, 4.0),
         forward: Vec3::new(-0.32, -0.24, -1.0),
-        right: Vec3::X * 0.01,
-        down: Vec3::Y * 0.01,
+        right: Vec3::X * 0.02,
+        down: Vec3::Y * 0.02,
     }
 }
 
@@ -27,7 +27,7 @@ fn answers(structure: &dyn Accel, rays: &RaySet) -> (Vec<Option<Hit>>, Vec<bool>
 
 /// Each built-in structure with each of its variants, against brute force.
 fn assert_equal(scene: &Scene, what: &str) {
-    let (list, raster) = (RaySet::List(rays(3, 3000)), raster());
+    let (list, raster) = (RaySet::List(rays(3, 600)), raster());
     let mut hit = 0;
     for (rays, need) in [(list, Workload::GENERAL), (RaySet::Raster(raster), Workload::raster(raster))] {
         for spec in registry::with_variants(|entry| entry.traits.built_in) {
@@ -53,7 +53,7 @@ fn assert_equal(scene: &Scene, what: &str) {
 #[test]
 fn each_kind_is_found_by_each_structure() {
     for kind in KINDS {
-        assert_equal(&solids(5, &[kind], 150, 0.2), kind);
+        assert_equal(&solids(5, &[kind], 100, 0.2), kind);
     }
 }
 
