@@ -6,6 +6,7 @@
 
 pub mod candidates;
 pub mod consistency;
+pub mod depth;
 mod error;
 pub mod experiment;
 pub mod facets;
@@ -16,6 +17,7 @@ pub mod page;
 pub mod plots;
 pub mod printed;
 pub mod secondary;
+pub mod setup;
 pub mod slips;
 pub mod speed;
 mod stage;
@@ -38,8 +40,14 @@ use std::collections::BTreeMap;
 pub struct Effort {
     /// Seeds of Tables 6 and 7.
     pub seeds: u64,
-    /// Rounds of each timing; Tables 2 to 5 take the rays of another row of the image in each.
+    /// Rounds of each timing.
     pub rounds: usize,
+    /// How often the images of Tables 2 to 5 are traced; none in records of old, which repeated single rows.
+    #[serde(default)]
+    pub images: usize,
+    /// Every how manieth row of them: 1 for whole images, as in the paper.
+    #[serde(default)]
+    pub image_step: u32,
     /// Secondary rays for each scene.
     pub secondary_rays: usize,
     /// Largest N of the memory tables.
@@ -50,10 +58,25 @@ pub struct Effort {
 
 impl Effort {
     /// The whole of it.
-    pub const FULL: Self =
-        Self { seeds: 400, rounds: 31, secondary_rays: 200, most_n: 256, most_p: 1_000_000 };
+    pub const FULL: Self = Self {
+        seeds: 400,
+        rounds: 31,
+        images: 3,
+        image_step: 1,
+        secondary_rays: 200,
+        most_n: 256,
+        most_p: 1_000_000,
+    };
     /// A look at it in seconds.
-    pub const QUICK: Self = Self { seeds: 200, rounds: 5, secondary_rays: 50, most_n: 64, most_p: 10_000 };
+    pub const QUICK: Self = Self {
+        seeds: 200,
+        rounds: 5,
+        images: 1,
+        image_step: 16,
+        secondary_rays: 50,
+        most_n: 64,
+        most_p: 10_000,
+    };
 }
 
 /// All that the page shows.
@@ -65,7 +88,7 @@ pub struct Paper {
     pub machine: String,
     /// How much was done.
     pub effort: Effort,
-    /// Tables 1 to 7 by number, and `secondary`.
+    /// Tables 1 to 7 by number, `setup`, `depth` and `secondary`.
     pub tables: BTreeMap<String, Table>,
     /// §3 and §4.
     pub cost_model: operations::CostModel,
@@ -96,13 +119,16 @@ pub fn run(
     tell(Stage::Candidates);
     let [six, seven] = candidates::tables(effort.seeds);
     tell(Stage::Speed);
-    let [two, three, four, five] = speed::tables(effort.rounds);
+    let [two, three, four, five] =
+        speed::tables(speed::Images { rounds: effort.images, step: effort.image_step });
+    tell(Stage::SetUp);
+    let (setup, depth) = (setup::table(&two), depth::table());
     tell(Stage::Secondary);
     let secondary = secondary::table(effort.secondary_rays, effort.rounds);
     tell(Stage::Memory);
     let memory = memory::evaluate(effort.most_n, effort.most_p);
     tell(Stage::Split);
-    let split = facets::evaluate(&load(&"stadium".parse()?)?, effort.rounds.min(5))?;
+    let split = facets::all(effort.rounds.min(5))?;
     tell(Stage::Consistency);
     let consistency = match real(scene)? {
         Some(scene) => Some(consistency::evaluate(&scene)?),
@@ -115,7 +141,9 @@ pub fn run(
         version: env!("CARGO_PKG_VERSION").into(),
         machine: machine(),
         effort: effort.clone(),
-        tables: numbered.chain([("secondary".into(), secondary)]).collect(),
+        tables: numbered
+            .chain([("setup".into(), setup), ("depth".into(), depth), ("secondary".into(), secondary)])
+            .collect(),
         cost_model,
         memory,
         consistency,

@@ -11,6 +11,8 @@ pub enum Stage {
     Candidates,
     /// Times against the other methods.
     Speed,
+    /// What it costs to make maps, and slices in depth.
+    SetUp,
     /// Secondary rays.
     Secondary,
     /// Memory by formulas and as built.
@@ -27,6 +29,7 @@ impl fmt::Display for Stage {
             Self::CostModel => "Table 1 and the cost model",
             Self::Candidates => "Tables 6 and 7: candidates",
             Self::Speed => "Tables 2 to 5: speed",
+            Self::SetUp => "set-up, and slices in depth",
             Self::Secondary => "secondary rays",
             Self::Memory => "memory",
             Self::Split => "large objects split",

@@ -108,6 +108,22 @@ impl Table {
     }
 }
 
+impl Table {
+    /// [`Table::trends`] as a sentence, with how many columns go the way of the print.
+    pub fn trends_in_words(&self) -> String {
+        let [all, down, along] = self.trends();
+        let holds = match down {
+            d if d > 0.5 => "the print's trend along p holds",
+            d if d < -0.5 => "the print's trend along p is turned round",
+            _ => "the print's trend along p is not seen",
+        };
+        format!(
+            "Rank correlation with the print: along p {down:.2} on average over the columns, along s {along:.2} over the rows: \
+             {holds}. Over all cells it is {all:.3}, which the sides of the boxes make high whatever p does."
+        )
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -22,21 +22,41 @@ const ID: &str = "ssm-list";
 pub struct SsmList {
     /// The settings.
     pub settings: Settings,
+    /// Whether a ray passes over objects that it tested lately. The paper tells of no such thing.
+    pub mailbox: bool,
 }
 
 impl Default for SsmList {
     /// Four cells for each object.
     fn default() -> Self {
-        Self { settings: Settings::new(Resolution::Density(4.0)) }
+        Self::new(Settings::new(Resolution::Density(4.0)))
     }
 }
 
 impl SsmList {
-    /// Changes one setting, see [`Settings::NAMES`].
+    /// Names and meanings, for help texts.
+    pub const NAMES: [(&str, &str); 6] = {
+        let [kernel, simd, resolution, density, memory] = Settings::NAMES;
+        let mailbox =
+            ("mailbox", "on: test no object twice for a ray, as far as 16 places tell; off: as in the paper");
+        [kernel, simd, resolution, density, mailbox, memory]
+    };
+
+    /// As in the paper, without a mailbox.
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, mailbox: false }
+    }
+
+    /// Changes one setting, see [`SsmList::NAMES`].
     ///
     /// # Errors
     /// [`BuildError::Setting`] if there is no such setting or the value makes no sense.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), BuildError> {
+        if name == "mailbox" {
+            let error = |problem| BuildError::Setting { structure: ID.into(), setting: name.into(), problem };
+            self.mailbox = accel::settings::switch(value).map_err(error)?;
+            return Ok(());
+        }
         self.settings.set(ID, name, value)
     }
 }
@@ -47,7 +67,7 @@ impl Builder for SsmList {
     }
 
     fn settings(&self) -> String {
-        self.settings.display()
+        format!("{} mailbox={}", self.settings.display(), if self.mailbox { "on" } else { "off" })
     }
 
     fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> BuildResult<'s> {
@@ -55,11 +75,11 @@ impl Builder for SsmList {
     }
 
     fn build_unless<'s>(&self, scene: &'s Scene, _: &Workload, cancel: Cancel) -> BuildResult<'s> {
-        primitives::with_objects(scene, self.settings.kernel, Build(self.settings, cancel))
+        primitives::with_objects(scene, self.settings.kernel, Build(*self, cancel))
     }
 }
 
-struct Build<'c>(Settings, Cancel<'c>);
+struct Build<'c>(SsmList, Cancel<'c>);
 
 impl<'s> WithObjects<'s> for Build<'_> {
     type Out = BuildResult<'s>;
@@ -101,6 +121,7 @@ impl Id for u32 {
 struct Built<O, I> {
     objects: O,
     settings: Settings,
+    mailbox: bool,
     cells: Cells<I>,
 }
 
@@ -157,8 +178,9 @@ impl<I: Id> Cells<I> {
 }
 
 impl<O: Objects, I: Id> Built<O, I> {
-    fn new(objects: O, shape: &impl Bounds, settings: &Settings, cancel: Cancel) -> Result<Self, BuildError> {
-        Ok(Self { objects, settings: *settings, cells: Cells::new(shape, settings, cancel)? })
+    fn new(objects: O, shape: &impl Bounds, list: &SsmList, cancel: Cancel) -> Result<Self, BuildError> {
+        let SsmList { settings, mailbox } = *list;
+        Ok(Self { objects, settings, mailbox, cells: Cells::new(shape, &settings, cancel)? })
     }
 
     #[inline(always)]
@@ -177,7 +199,7 @@ impl<O: Objects, I: Id> Built<O, I> {
             for id in self.cells.ids(self.cells.grid.index(cell.slice)) {
                 let id = id.widen();
                 count.candidates(1);
-                if tested.contains_or_insert(id) {
+                if self.mailbox && tested.contains_or_insert(id) {
                     continue;
                 }
                 count.tests(1);

@@ -10,9 +10,10 @@ use proptest::prelude::*;
 use ssm::suite::{Resolution, Settings, Ssm, SsmList};
 
 /// All builders with these settings.
-fn builders(settings: Settings) -> [Box<dyn Builder>; 4] {
+fn builders(settings: Settings) -> [Box<dyn Builder>; 5] {
     [
-        Box::new(SsmList { settings }),
+        Box::new(SsmList::new(settings)),
+        Box::new(SsmList { mailbox: true, ..SsmList::new(settings) }),
         Box::new(Ssm { settings, divide: None }),
         Box::new(Ssm { settings, divide: Some(0.5) }),
         Box::new(Ssm { settings, divide: Some(3.0) }),

@@ -101,8 +101,15 @@ pub const ENTRIES: &[Entry] = &[
         look: look("#4c3806", "#e0cb61", Shape::Triangle),
         description: "uniform grid: a counter, a pointer and ids for each cell",
         source: "Skala 1993, §5",
-        settings: &ssm::suite::Settings::NAMES,
-        variants: &["resolution=1", "resolution=4", "resolution=3x17x5", "density=40", "kernel=watertight"],
+        settings: &SsmList::NAMES,
+        variants: &[
+            "resolution=1",
+            "resolution=4",
+            "resolution=3x17x5",
+            "density=40",
+            "mailbox=on",
+            "kernel=watertight",
+        ],
         make: set!(SsmList),
         ..BUILT_IN
     },
