@@ -11,6 +11,8 @@ pub struct SpaceMaps {
     pub grid: Grid,
     /// R, S and T.
     pub axes: [Axis; 3],
+    /// Maps above these, level by level up to one word a slice; none in the paper.
+    pub above: Vec<[Axis; 3]>,
 }
 
 impl SpaceMaps {
@@ -23,7 +25,27 @@ impl SpaceMaps {
                 maps.touch(grid.slices(axis, &bounds), id);
             }
         }
-        Self { grid, axes }
+        Self { grid, axes, above: Vec::new() }
+    }
+
+    /// With maps above maps, until a slice has no more than one word.
+    #[must_use]
+    pub fn with_levels(mut self) -> Self {
+        loop {
+            let below = self.above.last().unwrap_or(&self.axes);
+            if below[0].words() <= 1 {
+                return self;
+            }
+            let above = below.each_ref().map(Axis::above);
+            self.above.push(above);
+        }
+    }
+
+    /// Bytes of the maps of [`SpaceMaps::with_levels`].
+    pub fn bytes_of_levels(resolution: [u32; 3], objects: usize) -> u128 {
+        let above = objects.div_ceil(64);
+        let more = if above > 1 { Self::bytes_of_levels(resolution, above) } else { 0 };
+        Self::bytes_of(resolution, objects) + more
     }
 
     /// Bytes of the maps of so many objects: M_BMSSM.
@@ -33,7 +55,7 @@ impl SpaceMaps {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.axes.iter().map(Axis::bytes).sum()
+        self.above.iter().flatten().chain(&self.axes).map(Axis::bytes).sum()
     }
 
     /// The maps of the three slices that meet in a cell.
@@ -94,5 +116,7 @@ mod tests {
             }
         }
         assert_eq!(maps.references(), references);
+        let levels = maps.with_levels();
+        assert_eq!(levels.bytes() as u128, SpaceMaps::bytes_of_levels([8; 3], 128));
     }
 }
