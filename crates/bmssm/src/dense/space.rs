@@ -55,7 +55,8 @@ impl SpaceMaps {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.above.iter().flatten().chain(&self.axes).map(Axis::bytes).sum()
+        let maps: usize = self.above.iter().flatten().chain(&self.axes).map(Axis::bytes).sum();
+        maps + accel::vec_bytes(&self.above)
     }
 
     /// The maps of the three slices that meet in a cell.
@@ -117,6 +118,7 @@ mod tests {
         }
         assert_eq!(maps.references(), references);
         let levels = maps.with_levels();
-        assert_eq!(levels.bytes() as u128, SpaceMaps::bytes_of_levels([8; 3], 128));
+        let list = accel::vec_bytes(&levels.above);
+        assert_eq!((levels.bytes() - list) as u128, SpaceMaps::bytes_of_levels([8; 3], 128));
     }
 }
