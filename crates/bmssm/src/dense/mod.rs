@@ -9,7 +9,6 @@ mod all;
 mod axis;
 mod detail;
 mod image;
-mod levels;
 mod resolution;
 mod settings;
 mod space;
@@ -94,18 +93,14 @@ impl Maps {
             })
             .transpose()
             .map_err(|error| setting("resolution", error.to_string()))?;
-        let bytes_of = if settings.levels { SpaceMaps::bytes_of_levels } else { SpaceMaps::bytes_of };
         let bytes = workload.raster.map_or(0, |raster| ImageMaps::bytes_of(&raster, objects.len()))
-            + grid.map_or(0, |grid| bytes_of(grid.resolution(), objects.len()));
+            + grid.map_or(0, |grid| SpaceMaps::bytes_of(grid.resolution(), objects.len()));
         let limit = settings.memory.unwrap_or_else(accel::available_memory);
         if bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes, limit });
         }
         let image = workload.raster.map(|raster| ImageMaps::new(objects, raster));
-        let space = grid.map(|grid| {
-            let maps = SpaceMaps::new(objects, grid);
-            if settings.levels { maps.with_levels() } else { maps }
-        });
+        let space = grid.map(|grid| SpaceMaps::new(objects, grid));
         Ok(Self { objects: objects.len(), image, space })
     }
 
@@ -130,11 +125,7 @@ fn plan(image: Option<&ImageMaps>, space: Option<&SpaceMaps>) -> String {
     }
     if let Some(maps) = space {
         let [x, y, z] = maps.grid.resolution();
-        let levels = match maps.above.len() {
-            0 => String::new(),
-            above => format!(", {above} levels of maps above"),
-        };
-        lines.push(format!("{x} × {y} × {z} slices{levels}"));
+        lines.push(format!("{x} × {y} × {z} slices"));
     }
     lines.join("\n")
 }

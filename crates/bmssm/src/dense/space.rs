@@ -11,8 +11,6 @@ pub struct SpaceMaps {
     pub grid: Grid,
     /// R, S and T.
     pub axes: [Axis; 3],
-    /// Maps above these, level by level up to one word a slice; none in the paper.
-    pub above: Vec<[Axis; 3]>,
 }
 
 impl SpaceMaps {
@@ -25,27 +23,7 @@ impl SpaceMaps {
                 maps.touch(grid.slices(axis, &bounds), id);
             }
         }
-        Self { grid, axes, above: Vec::new() }
-    }
-
-    /// With maps above maps, until a slice has no more than one word.
-    #[must_use]
-    pub fn with_levels(mut self) -> Self {
-        loop {
-            let below = self.above.last().unwrap_or(&self.axes);
-            if below[0].words() <= 1 {
-                return self;
-            }
-            let above = below.each_ref().map(Axis::above);
-            self.above.push(above);
-        }
-    }
-
-    /// Bytes of the maps of [`SpaceMaps::with_levels`].
-    pub fn bytes_of_levels(resolution: [u32; 3], objects: usize) -> u128 {
-        let above = objects.div_ceil(64);
-        let more = if above > 1 { Self::bytes_of_levels(resolution, above) } else { 0 };
-        Self::bytes_of(resolution, objects) + more
+        Self { grid, axes }
     }
 
     /// Bytes of the maps of so many objects: M_BMSSM.
@@ -55,8 +33,7 @@ impl SpaceMaps {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        let maps: usize = self.above.iter().flatten().chain(&self.axes).map(Axis::bytes).sum();
-        maps + accel::vec_bytes(&self.above)
+        self.axes.iter().map(Axis::bytes).sum()
     }
 
     /// The maps of the three slices that meet in a cell.
@@ -117,8 +94,5 @@ mod tests {
             }
         }
         assert_eq!(maps.references(), references);
-        let levels = maps.with_levels();
-        let list = accel::vec_bytes(&levels.above);
-        assert_eq!((levels.bytes() - list) as u128, SpaceMaps::bytes_of_levels([8; 3], 128));
     }
 }
