@@ -38,12 +38,16 @@ impl Line {
     /// The part of a line in the box with these least and greatest coordinates, seen from close by where that matters.
     #[inline(always)]
     pub fn through(corners: [Vec3; 2], origin: Vec3, direction: Vec3) -> Self {
+        Self::unmoved(corners, origin, direction).unwrap_or_else(|| Self::moved(corners, origin, direction))
+    }
+
+    /// [`Line::through`] with the origin where it is, or `None` where it has to be moved: for those who would rather do what
+    /// follows in two ways than add to each t what is nearly always 0.
+    #[inline(always)]
+    pub fn unmoved(corners: [Vec3; 2], origin: Vec3, direction: Vec3) -> Option<Self> {
         let at = origin.to_array().map(f64::from);
         let (near, far) = range(corners, at, direction);
-        if is_brief(near, far, BRIEFLY) {
-            return Self::moved(corners, origin, direction);
-        }
-        Self { origin: at, moved: 0.0, near, far }
+        (!is_brief(near, far, BRIEFLY)).then_some(Self { origin: at, moved: 0.0, near, far })
     }
 
     /// The part in a box of a line whose origin is moved to it.

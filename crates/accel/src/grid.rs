@@ -102,7 +102,21 @@ impl Grid {
     /// The part of the ray inside the grid and its own range of t, or `None` where there is none.
     #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> Option<Segment> {
-        let line = Line::through([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
+        match Line::unmoved([self.bounds.min, self.bounds.max], ray.origin, ray.direction) {
+            Some(line) => self.clip_line(ray, &line),
+            None => self.clip_far(ray),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn clip_far(&self, ray: &Ray) -> Option<Segment> {
+        let line = Line::moved([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
+        self.clip_line(ray, &line)
+    }
+
+    #[inline(always)]
+    fn clip_line(&self, ray: &Ray, line: &Line) -> Option<Segment> {
         let (t_min, t_max) = within_reach(f64::from(ray.t_min), f64::from(ray.t_max));
         let t_start = line.near.max(t_min - line.moved);
         let t_end = line.far.min(t_max - line.moved);

@@ -2,14 +2,31 @@
 
 use super::TriangleBlocks;
 use super::frame::Limits;
-use super::search::{Rays, Search, TriangleKernel};
+use super::search::{Candidates, Rays, Search, TriangleKernel};
 use crate::kernel::Packed;
-use accel::{Nearest, Objects};
+use accel::{Nearest, Objects, Ray};
 use lanes::packet::{NearestPacket, Packet};
-use lanes::{EMPTY_SLOT, ROW, Row, Simd};
+use lanes::{EMPTY_SLOT, ROW, Row, Simd, Task};
 
 /// As many rows as kernels pack, or more.
 const MOST_ROWS: usize = 16;
+
+/// [`Search::in_place`], apart from what is done with packed triangles: together they leave the registers short.
+pub(super) struct InPlace<'a, K: TriangleKernel> {
+    pub set: Candidates<'a, K>,
+    pub ray: &'a Ray,
+    pub any: bool,
+    pub best: &'a mut Nearest,
+}
+
+impl<K: TriangleKernel> Task for InPlace<'_, K> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) {
+        K::Search::in_place(s, self.set, self.ray, self.any, self.best);
+    }
+}
 
 impl<K: TriangleKernel> TriangleBlocks<'_, K> {
     /// [`lanes::Blocks::packet`].

@@ -21,6 +21,7 @@ use accel::Objects;
 use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
 use bounds::TriangleBounds;
 use frame::Frame;
+use in_place::InPlace;
 use lanes::packet::{NearestPacket, Packet, Pairs, Vec3Lanes};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared};
 use lanes::{ROW, Row, Simd};
@@ -268,7 +269,8 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
         if self.in_place {
-            return K::Search::in_place(s, Candidates { blocks: self, block, mask }, &ray.ray, false, best);
+            let set = Candidates { blocks: self, block, mask };
+            return s.apart(InPlace { set, ray: &ray.ray, any: false, best });
         }
         K::Search::closest(s, Candidates { blocks: self, block, mask }, ray, best);
     }
@@ -277,7 +279,8 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         if self.in_place {
             let mut best = Nearest::new(t_max);
-            K::Search::in_place(s, Candidates { blocks: self, block, mask }, &ray.ray, true, &mut best);
+            let set = Candidates { blocks: self, block, mask };
+            s.apart(InPlace { set, ray: &ray.ray, any: true, best: &mut best });
             return best.object != Nearest::NONE;
         }
         K::Search::any(s, Candidates { blocks: self, block, mask }, ray, t_max)

@@ -53,9 +53,23 @@ impl Frame {
     /// The part of a ray inside the grid and its own range of t, or `None` where there is none.
     #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
+        match Line::unmoved([self.bounds.min, self.bounds.max], ray.origin, ray.direction) {
+            Some(line) => self.clip_line(ray, &line),
+            None => self.clip_far(ray),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn clip_far(&self, ray: &Ray) -> Option<ClippedSegment> {
+        let line = Line::moved([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
+        self.clip_line(ray, &line)
+    }
+
+    #[inline(always)]
+    fn clip_line(&self, ray: &Ray, line: &Line) -> Option<ClippedSegment> {
         let direction = ray.direction.to_array().map(f64::from);
-        let Line { origin, moved, near, far } =
-            Line::through([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
+        let Line { origin, moved, near, far } = *line;
         let (t_min, t_max) = within_reach(f64::from(ray.t_min), f64::from(ray.t_max));
         let t_start = near.max(t_min - moved);
         let t_end = far.min(t_max - moved);
