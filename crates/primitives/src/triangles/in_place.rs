@@ -11,20 +11,30 @@ use lanes::{EMPTY_SLOT, ROW, Row, Simd, Task};
 /// As many rows as kernels pack, or more.
 const MOST_ROWS: usize = 16;
 
-/// [`Search::in_place`], apart from what is done with packed triangles: together they leave the registers short.
+/// [`Search::in_place`], apart from what is done with packed triangles. It takes copies of the ray and its nearest hit, as
+/// the originals can then stay in registers.
 pub(super) struct InPlace<'a, K: TriangleKernel> {
-    pub set: Candidates<'a, K>,
-    pub ray: &'a Ray,
-    pub any: bool,
-    pub best: &'a mut Nearest,
+    set: Candidates<'a, K>,
+    ray: Ray,
+    any: bool,
+    best: Nearest,
+}
+
+impl<'a, K: TriangleKernel> InPlace<'a, K> {
+    /// The nearest hit so far of a ray after it was tested with candidates.
+    #[inline(always)]
+    pub fn test<S: Simd>(s: S, set: Candidates<'a, K>, ray: Ray, any: bool, best: Nearest) -> Nearest {
+        s.apart(Self { set, ray, any, best })
+    }
 }
 
 impl<K: TriangleKernel> Task for InPlace<'_, K> {
-    type Out = ();
+    type Out = Nearest;
 
     #[inline(always)]
-    fn run<S: Simd>(self, s: S) {
-        K::Search::in_place(s, self.set, self.ray, self.any, self.best);
+    fn run<S: Simd>(mut self, s: S) -> Nearest {
+        K::Search::in_place(s, self.set, &self.ray, self.any, &mut self.best);
+        self.best
     }
 }
 

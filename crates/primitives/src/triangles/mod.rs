@@ -269,8 +269,8 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn closest<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, best: &mut Nearest) {
         if self.in_place {
-            let set = Candidates { blocks: self, block, mask };
-            return s.apart(InPlace { set, ray: &ray.ray, any: false, best });
+            *best = InPlace::test(s, Candidates { blocks: self, block, mask }, ray.ray, false, *best);
+            return;
         }
         K::Search::closest(s, Candidates { blocks: self, block, mask }, ray, best);
     }
@@ -278,9 +278,8 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
     #[inline(always)]
     fn any<S: Simd>(&self, s: S, block: usize, mask: u64, ray: &Self::One, t_max: f32) -> bool {
         if self.in_place {
-            let mut best = Nearest::new(t_max);
             let set = Candidates { blocks: self, block, mask };
-            s.apart(InPlace { set, ray: &ray.ray, any: true, best: &mut best });
+            let best = InPlace::test(s, set, ray.ray, true, Nearest::new(t_max));
             return best.object != Nearest::NONE;
         }
         K::Search::any(s, Candidates { blocks: self, block, mask }, ray, t_max)
