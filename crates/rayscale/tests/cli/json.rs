@@ -20,6 +20,7 @@ const VERBS: &[&str] = &[
     "scenes export unit-one --out unit.obj",
     "structures",
     "trade --scene unit-one --size 16 --judged 8 --rounds 1 --structure ssm --out traded",
+    "model lattice-true --pixels 16 --levels 1 --list 4 --rounds 1",
     "completions bash",
 ];
 
