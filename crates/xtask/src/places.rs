@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 /// What must build and pass on a machine without Embree or any C++.
-pub const CORE: [&str; 7] = [
+pub const CORE: [&str; 8] = [
     "rayscale-accel",
     "rayscale-lanes",
+    "rayscale-solids",
     "rayscale-primitives",
     "rayscale-oracle",
     "rayscale-baselines",
@@ -81,5 +82,21 @@ pub fn remove(path: &Path) -> Result<(), String> {
             Err(format!("cannot remove {}: {e}", path.display()))
         }
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_core_needs_no_package_of_the_workspace_outside_itself() {
+        let root = Places::of_this_checkout().root;
+        let metadata = cargo_metadata::MetadataCommand::new().current_dir(root).no_deps().exec().unwrap();
+        for package in metadata.packages.iter().filter(|package| CORE.contains(&package.name.as_str())) {
+            for needed in package.dependencies.iter().filter(|needed| needed.path.is_some()) {
+                assert!(CORE.contains(&needed.name.as_str()), "{} needs {}", package.name, needed.name);
+            }
+        }
     }
 }

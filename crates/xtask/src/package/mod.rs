@@ -14,7 +14,8 @@ const TRACE: &str = include_str!("trace.rs.txt");
 const ERRORS: &str = include_str!("errors.rs.txt");
 
 /// What [`TRACE`] depends on in the end: it names the last only.
-const NEEDED: [&str; 4] = ["rayscale-accel", "rayscale-lanes", "rayscale-primitives", "bmssm"];
+const NEEDED: [&str; 5] =
+    ["rayscale-accel", "rayscale-lanes", "rayscale-solids", "rayscale-primitives", "bmssm"];
 
 /// Packages, unpacks, builds and runs; says what was seen.
 ///
