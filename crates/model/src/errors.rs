@@ -2,26 +2,8 @@
 
 use accel::{Hit, RaySet, Solid};
 use glam::DVec3;
-use harness::stats::quantile;
+use judge::Spread;
 use serde::{Deserialize, Serialize};
-
-/// A distribution of errors.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Spread {
-    /// The median.
-    pub median: f64,
-    /// What 99 of 100 are below.
-    pub p99: f64,
-    /// The largest.
-    pub largest: f64,
-}
-
-impl Spread {
-    fn of(values: &[f64]) -> Self {
-        let at = |q| quantile(values, q).unwrap_or(0.0);
-        Self { median: at(0.5), p99: at(0.99), largest: values.iter().copied().fold(0.0, f64::max) }
-    }
-}
 
 /// An image of a model held against the image of the true surface, ray by ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -124,8 +106,8 @@ pub fn errors(truth: &Truth<'_>, shown: &Shown<'_>, allowed: f64) -> Errors {
             degrees.push(libm::acos(a.dot(b).abs().min(1.0)).to_degrees());
         }
     }
-    (found.distance, found.pixels_off) = (Spread::of(&distances), Spread::of(&widths));
-    found.degrees = Spread::of(&degrees);
+    (found.distance, found.pixels_off) = (Spread::of(&mut distances), Spread::of(&mut widths));
+    found.degrees = Spread::of(&mut degrees);
     found
 }
 

@@ -64,14 +64,13 @@ impl<'s> SolidBlocks<'s> {
         ray: &OneRay,
         best: &mut Nearest,
     ) {
-        let half_pad = s.splat(0.5 * self.frame().pad);
         let prepared = ray.prepared.splat(s);
         let mut lane = 0;
         while lane < ROW {
             let wanted = mask >> lane & (u32::MAX >> (32 - S::LANES));
             if wanted != 0 {
                 let values = crate::rows::load::<K, S>(s, group.rows, lane);
-                let found = K::test(s, &prepared, &values, half_pad, s.splat(best.t));
+                let found = K::test(s, &prepared, &values, s.splat(best.t));
                 let mut hits = s.bits(found.hit) & wanted;
                 if hits != 0 {
                     let plain = s.bits(found.plain);
@@ -103,9 +102,8 @@ impl<'s> SolidBlocks<'s> {
         best: &mut NearestPacket<S>,
     ) {
         let object = self.ids.get(slot);
-        let half_pad = s.splat(0.5 * self.frame().pad);
         let values = crate::rows::splat::<K, S>(s, group.rows, slot % ROW);
-        let found = K::test(s, &rays.prepared, &values, half_pad, best.t);
+        let found = K::test(s, &rays.prepared, &values, best.t);
         let mut hit = s.and(found.hit, rays.near);
         let mut unsure = s.bits(hit) & !s.bits(found.plain);
         if unsure != 0 {
@@ -173,13 +171,14 @@ impl Blocks for SolidBlocks<'_> {
         OneRay {
             ray: *ray,
             near: self.frame().near(Scalar, &packet),
-            prepared: Prepared::of(Scalar, &packet),
+            prepared: Prepared::of(Scalar, &packet, self.frame().pad),
         }
     }
 
     #[inline(always)]
     fn many<S: Simd>(&self, s: S, rays: &Packet<S>) -> ManyRays<S> {
-        ManyRays { rays: *rays, near: self.frame().near(s, rays), prepared: Prepared::of(s, rays) }
+        let frame = self.frame();
+        ManyRays { rays: *rays, near: frame.near(s, rays), prepared: Prepared::of(s, rays, frame.pad) }
     }
 
     #[inline(always)]

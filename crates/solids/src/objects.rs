@@ -58,7 +58,7 @@ impl<'s> Solids<'s> {
     /// An object of kind `K` by the test of rows.
     fn single<K: Packing>(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         let numbers = K::numbers(&self.solids[id as usize])?;
-        let (t, plain) = one::<K>(&numbers, ray, 0.5 * self.frame.pad, t_max)?;
+        let (t, plain) = one::<K>(&numbers, ray, self.frame.pad, t_max)?;
         (plain || self.holds(id, ray, t)).then_some(Surface { t, u: 0.0, v: 0.0 })
     }
 }

@@ -86,21 +86,22 @@ pub trait Shape {
     fn validate(&self) -> Result<(), SolidError>;
 }
 
-/// Calls a method of [`Shape`] for whatever kind there is.
-macro_rules! of_kind {
+/// What is done with a [`Solid`], whichever kind it is.
+#[macro_export]
+macro_rules! of_solid {
     ($solid:expr, $shape:ident => $does:expr) => {
         match $solid {
-            Solid::Triangle($shape) => $does,
-            Solid::Box($shape) => $does,
-            Solid::Sphere($shape) => $does,
-            Solid::Cone($shape) => $does,
-            Solid::Disc($shape) => $does,
-            Solid::Quadric($shape) => $does,
-            Solid::Torus($shape) => $does,
-            Solid::Implicit($shape) => $does,
-            Solid::Patch($shape) => $does,
-            Solid::Facets($shape) => $does,
-            Solid::Csg($shape) => $does,
+            $crate::Solid::Triangle($shape) => $does,
+            $crate::Solid::Box($shape) => $does,
+            $crate::Solid::Sphere($shape) => $does,
+            $crate::Solid::Cone($shape) => $does,
+            $crate::Solid::Disc($shape) => $does,
+            $crate::Solid::Quadric($shape) => $does,
+            $crate::Solid::Torus($shape) => $does,
+            $crate::Solid::Implicit($shape) => $does,
+            $crate::Solid::Patch($shape) => $does,
+            $crate::Solid::Facets($shape) => $does,
+            $crate::Solid::Csg($shape) => $does,
         }
     };
 }
@@ -111,17 +112,17 @@ impl Solid {
         fn of<S: Shape>(_: &S) -> &'static str {
             S::KIND
         }
-        of_kind!(self, shape => of(shape))
+        of_solid!(self, shape => of(shape))
     }
 
     /// [`Shape::bounds`]
     pub fn bounds(&self) -> Aabb {
-        of_kind!(self, shape => shape.bounds())
+        of_solid!(self, shape => shape.bounds())
     }
 
     /// [`Shape::normal`]
     pub fn normal(&self, point: DVec3) -> Option<DVec3> {
-        of_kind!(self, shape => shape.normal(point))
+        of_solid!(self, shape => shape.normal(point))
     }
 
     /// [`Shape::moved`]
@@ -144,7 +145,7 @@ impl Solid {
 
     /// [`Shape::numbers`]
     pub fn numbers(&self, see: &mut dyn FnMut(f32)) {
-        of_kind!(self, shape => shape.numbers(see));
+        of_solid!(self, shape => shape.numbers(see));
     }
 
     /// [`Shape::validate`]
@@ -152,7 +153,7 @@ impl Solid {
     /// # Errors
     /// Names the field and what is wrong with it.
     pub fn validate(&self) -> Result<(), SolidError> {
-        of_kind!(self, shape => shape.validate())
+        of_solid!(self, shape => shape.validate())
     }
 }
 

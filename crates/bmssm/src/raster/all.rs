@@ -16,14 +16,7 @@ impl<O: PackedObjects> RasterMaps<O> {
             while seen != 0 {
                 let at = i * 64 + seen.trailing_zeros() as usize;
                 seen &= seen - 1;
-                let block = &self.blocks[at];
-                // Wraps to a number beyond the block's slices where the pixel lies before them.
-                let (r, c) = (row.wrapping_sub(block.row), col.wrapping_sub(block.col));
-                if r >= block.rows || c >= block.cols {
-                    continue;
-                }
-                let words = &self.words[block.words as usize..];
-                let mut candidates = words[r as usize] & words[(block.rows + c) as usize];
+                let mut candidates = self.candidates(at, row, col);
                 while candidates != 0 {
                     found.push(self.geometry.object(at * BLOCK + candidates.trailing_zeros() as usize));
                     candidates &= candidates - 1;

@@ -28,19 +28,13 @@ impl<O: PackedObjects> Task for Pixel<'_, O> {
             while seen != 0 {
                 let at = i * 64 + seen.trailing_zeros() as usize;
                 seen &= seen - 1;
-                let block = &maps.blocks[at];
-                if block.depth[0] > best.t {
+                if maps.blocks[at].depth[0] > best.t {
                     maps.geometry.resolve(&one, &mut best);
                     return best;
                 }
-                // Wraps to a number beyond the block's slices where the pixel lies before them.
-                let (r, c) = (row.wrapping_sub(block.row), col.wrapping_sub(block.col));
-                if r < block.rows && c < block.cols {
-                    let words = &maps.words[block.words as usize..];
-                    let candidates = words[r as usize] & words[(block.rows + c) as usize];
-                    if candidates != 0 {
-                        maps.geometry.closest(s, at, candidates, &one, &mut best);
-                    }
+                let candidates = maps.candidates(at, row, col);
+                if candidates != 0 {
+                    maps.geometry.closest(s, at, candidates, &one, &mut best);
                 }
             }
         }
@@ -50,6 +44,19 @@ impl<O: PackedObjects> Task for Pixel<'_, O> {
 }
 
 impl<O: PackedObjects> RasterMaps<O> {
+    /// R & S: the objects of a block in a slice of rows and one of columns.
+    #[inline(always)]
+    pub(super) fn candidates(&self, block: usize, row: u32, col: u32) -> u64 {
+        let block = &self.blocks[block];
+        // Wraps to a number beyond the block's slices where the pixel lies before them.
+        let (r, c) = (row.wrapping_sub(block.row), col.wrapping_sub(block.col));
+        if r >= block.rows || c >= block.cols {
+            return 0;
+        }
+        let words = &self.words[block.words as usize..];
+        words[r as usize] & words[(block.rows + c) as usize]
+    }
+
     /// The nearest hit of one pixel.
     ///
     /// # Panics

@@ -3,13 +3,13 @@
 #[cfg(doc)]
 use super::frame::Frame;
 use super::frame::Limits;
-use super::pairs::{Group, limits};
+use super::pairs::PairRays;
 use super::pending::{PendingHit, defer, lower_bound, pending};
 use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search, Slot};
 use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Deferral, Deferred, Floats, Packed};
 use accel::{Nearest, Objects, Ray, Surface};
-use lanes::packet::{Bounds, Lanes, NearestPacket, Packet, Pairs, RayRows};
+use lanes::packet::{Bounds, Lanes, NearestPacket, Packet, Pairs};
 use lanes::{Blocks, ROW, Row, Scalar, Simd};
 
 /// As many rows as kernels pack, or more.
@@ -79,16 +79,11 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     where
         TriangleBlocks<'s, K>: Blocks,
     {
-        let many = blocks.prepare_many(s, pairs.packet);
-        let near = if blocks.in_place { 0 } else { s.bits(many.near) };
-        let rows = RayRows::of(s, pairs.packet);
-        let mut t_max = limits(best);
+        let near = if blocks.in_place { 0 } else { s.bits(blocks.near(s, pairs.packet)) };
+        let mut rays = PairRays::of(s, blocks, pairs, best);
         for at in (0..pairs.len).step_by(S::LANES) {
-            let group = Group::at(s, pairs, at);
-            let corners = blocks.corners_each(s, pairs, &group);
-            let t = s.permute(s.load(&t_max), group.ray);
-            let bounds =
-                K::bounds_each(s, &K::permuted(s, &many.prepared, group.ray), corners, group.wanted, t);
+            let group = rays.group(s, blocks, pairs, at);
+            let bounds = K::bounds_each(s, &group.rays, group.corners, group.wanted, group.t_max);
             let mut undecided = s.bits(bounds.undecided) & group.wanted;
             if undecided == 0 {
                 continue;
@@ -98,23 +93,23 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
             s.store(bounds.high, &mut high);
             let mut certain = undecided & s.bits(bounds.certain);
             while let Some(lane) = next_lane(&mut certain) {
-                let (slot, place) = (blocks.slot_of(pairs, &group, lane), group.place(lane));
+                let (slot, place) = group.pair(lane);
                 if near >> place & 1 != 0 && high[lane] < lower_bound(&best[place]) {
                     PendingHit { slot, low: low[lane], high: high[lane] }.wait(&mut best[place]);
-                    t_max[place] = if pairs.any { f32::NEG_INFINITY } else { high[lane] };
+                    rays.found(place, pairs.any, high[lane]);
                     undecided &= !(1 << lane);
                 }
             }
             while let Some(lane) = next_lane(&mut undecided) {
-                let (slot, place) = (blocks.slot_of(pairs, &group, lane), group.place(lane));
+                let (slot, place) = group.pair(lane);
                 let best = &mut best[place];
                 let known = PendingHit::in_place_of(best).is_some_and(|pending| pending.slot == slot);
-                if known || low[lane] > t_max[place] {
+                if known || low[lane] > rays.t_max(place) {
                     continue;
                 }
-                blocks.decide_pair(&rows.ray(place), slot, high[lane], best);
+                blocks.decide_pair(&rays.ray(place), slot, high[lane], best);
                 if best.object != Nearest::NONE {
-                    t_max[place] = if pairs.any { f32::NEG_INFINITY } else { best.t };
+                    rays.found(place, pairs.any, best.t);
                 }
             }
         }

@@ -1,11 +1,11 @@
 //! Rays and triangles in pairs, one in each lane, each decided at once.
 
-use super::pairs::{Group, limits};
+use super::pairs::PairRays;
 use super::search::{Candidates, Search};
 use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Floats, InPairs, Paired};
 use accel::{Nearest, Ray};
-use lanes::packet::{Packet, Pairs, RayRows};
+use lanes::packet::{Packet, Pairs};
 use lanes::{Blocks, ROW, Simd};
 
 impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
@@ -18,27 +18,22 @@ impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
         TriangleBlocks<'s, K>: Blocks,
     {
         let frame = &blocks.triangles.frame;
-        let many = K::many(s, &frame.packet(s, pairs.packet));
-        let rows = RayRows::of(s, pairs.packet);
-        let mut t_max = limits(best);
+        let mut rays = PairRays::of(s, blocks, pairs, best);
         for at in (0..pairs.len).step_by(S::LANES) {
-            let group = Group::at(s, pairs, at);
-            let corners = blocks.corners_each(s, pairs, &group);
-            let t = s.permute(s.load(&t_max), group.ray);
-            let found = K::each(s, &K::permuted(s, &many, group.ray), corners, t);
+            let group = rays.group(s, blocks, pairs, at);
+            let found = K::each(s, &group.rays, group.corners, group.t_max);
             let mut hits = s.bits(found.hit) & group.wanted;
             if hits == 0 {
                 continue;
             }
             let found = found.rows(s);
             while let Some(lane) = next_lane(&mut hits) {
-                let (slot, place) = (blocks.slot_of(pairs, &group, lane), group.place(lane));
-                let surface = found.surface(lane);
-                let ray = rows.ray(place);
+                let ((slot, place), surface) = (group.pair(lane), found.surface(lane));
+                let ray = rays.ray(place);
                 let corners = blocks.corners_of(slot);
                 if frame.holds(&corners, &ray, frame.is_near(ray.origin), surface.t) {
                     best[place].offer(blocks.ids.get(slot), surface);
-                    t_max[place] = if pairs.any { f32::NEG_INFINITY } else { best[place].t };
+                    rays.found(place, pairs.any, best[place].t);
                 }
             }
         }

@@ -169,6 +169,13 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
     /// Prepares `LANES` rays.
     #[inline(always)]
     fn prepare_many<S: Simd>(&self, s: S, rays: &Packet<S>) -> Rays<K, S> {
+        let prepared = K::many(s, &self.triangles.frame.packet(s, rays));
+        TrianglePacket { prepared, rays: *rays, near: self.near(s, rays) }
+    }
+
+    /// The rays whose certain hits satisfy the invariant, see [`Frame::is_near`].
+    #[inline(always)]
+    fn near<S: Simd>(&self, s: S, rays: &Packet<S>) -> S::M {
         let frame = &self.triangles.frame;
         let near = s.splat(frame.near);
         let mut all = s.mask(u32::MAX);
@@ -176,8 +183,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
             let distance = s.abs(s.sub(rays.origin[axis], s.splat(frame.center[axis])));
             all = s.and(all, s.le(distance, near));
         }
-        let near = s.and(all, s.le(rays.t_min, rays.t_max));
-        TrianglePacket { prepared: K::many(s, &frame.packet(s, rays)), rays: *rays, near }
+        s.and(all, s.le(rays.t_min, rays.t_max))
     }
 
     /// A slot's group as it is kept.

@@ -1,70 +1,120 @@
 //! Rays and packed triangles brought together, one of each in a lane.
 
 use super::{CORNER_ROWS, TriangleBlocks};
-use crate::kernel::{Floats, Kernel};
-use accel::{MeshRef, Nearest};
-use lanes::packet::{Pairs, Vec3Lanes};
-use lanes::{BLOCK, ROW, Simd};
+use crate::kernel::{Floats, Kernel, Many, Permuted};
+use accel::{MeshRef, Nearest, Ray};
+use lanes::packet::{Pairs, RayRows, Vec3Lanes};
+use lanes::{BLOCK, EMPTY_SLOT, ROW, Simd};
+
+/// The rays of pairs, prepared.
+pub(super) struct PairRays<K: Kernel, S: Simd> {
+    many: Many<K, S>,
+    rows: RayRows,
+    /// Up to what t each looks.
+    t_max: [f32; ROW],
+}
 
 /// `LANES` of the pairs, or those that are left.
-pub(super) struct Group<'a, S: Simd> {
-    /// The ray of each lane, by its place in the packet.
-    pub ray: S::U,
-    /// The same in memory.
-    pub places: &'a [u8],
-    /// The triangle of each lane, by its slot in the block.
-    pub slots: &'a [u8],
+pub(super) struct Group<'a, K: Kernel, S: Simd> {
+    /// The ray of each lane.
+    pub rays: Many<K, S>,
+    /// Up to what t it looks.
+    pub t_max: S::F,
+    /// The corners of each lane's triangle as the kernel sees them.
+    pub corners: [Vec3Lanes<S>; 3],
     /// A bit for each lane that holds a pair.
     pub wanted: u32,
+    lanes: Lanes<'a>,
 }
 
-impl<'a, S: Simd> Group<'a, S> {
-    /// The pairs from `at` on.
+/// What is in each lane.
+struct Lanes<'a> {
+    /// The ray, by its place in the packet.
+    places: &'a [u8],
+    /// The triangle, by its slot in the block.
+    slots: &'a [u8],
+    /// The first slot of the block.
+    first: usize,
+    /// How many pairs there are.
+    len: usize,
+}
+
+impl<K: Permuted<Storage = Floats>, S: Simd> PairRays<K, S> {
+    /// Prepares the rays; each looks up to its nearest hit so far.
     #[inline(always)]
-    pub fn at(s: S, pairs: &Pairs<'a, S>, at: usize) -> Self {
-        let left = pairs.len - at;
-        let wanted = if left < S::LANES { (1 << left) - 1 } else { u32::MAX >> (32 - S::LANES) };
+    pub fn of(s: S, blocks: &TriangleBlocks<K>, pairs: &Pairs<S>, best: &[Nearest; ROW]) -> Self {
+        let mut t_max = [0.0; ROW];
+        for (t_max, best) in t_max.iter_mut().zip(best) {
+            *t_max = best.t;
+        }
+        let many = K::many(s, &blocks.triangles.frame.packet(s, pairs.packet));
+        Self { many, rows: RayRows::of(s, pairs.packet), t_max }
+    }
+
+    /// The pairs from `at` on, ray and triangle in one lane.
+    #[inline(always)]
+    pub fn group<'a>(
+        &self,
+        s: S,
+        blocks: &TriangleBlocks<K>,
+        pairs: &Pairs<'a, S>,
+        at: usize,
+    ) -> Group<'a, K, S> {
         let (places, slots) = (&pairs.rays[at..], &pairs.slots[at..]);
-        Self { ray: s.load_bytes(places), places, slots, wanted }
+        let lanes = Lanes { places, slots, first: pairs.block * BLOCK, len: S::LANES.min(pairs.len - at) };
+        let ray = s.load_bytes(places);
+        Group {
+            rays: K::permuted(s, &self.many, ray),
+            t_max: s.permute(s.load(&self.t_max), ray),
+            corners: blocks.corners_each(s, pairs.block, &lanes),
+            wanted: u32::MAX >> (32 - lanes.len),
+            lanes,
+        }
     }
 
-    /// The place of the ray in a lane.
+    /// The ray at a place.
     #[inline(always)]
-    pub fn place(&self, lane: usize) -> usize {
-        usize::from(self.places[lane]) % ROW
+    pub fn ray(&self, place: usize) -> Ray {
+        self.rows.ray(place)
+    }
+
+    /// Up to what t the ray at a place looks.
+    #[inline(always)]
+    pub fn t_max(&self, place: usize) -> f32 {
+        self.t_max[place]
+    }
+
+    /// Lets the ray at a place look no farther than a hit, or no more if any hit will do.
+    #[inline(always)]
+    pub fn found(&mut self, place: usize, any: bool, t: f32) {
+        self.t_max[place] = if any { f32::NEG_INFINITY } else { t };
     }
 }
 
-/// Up to what t each ray looks.
-#[inline(always)]
-pub(super) fn limits(best: &[Nearest; ROW]) -> [f32; ROW] {
-    let mut limits = [0.0; ROW];
-    for (limit, best) in limits.iter_mut().zip(best) {
-        *limit = best.t;
+impl<K: Kernel, S: Simd> Group<'_, K, S> {
+    /// The slot of a lane's triangle and the place of its ray.
+    #[inline(always)]
+    pub fn pair(&self, lane: usize) -> (usize, usize) {
+        (self.lanes.slot(lane), usize::from(self.lanes.places[lane]) % ROW)
     }
-    limits
+}
+
+impl Lanes<'_> {
+    #[inline(always)]
+    fn slot(&self, lane: usize) -> usize {
+        self.first + usize::from(self.slots[lane])
+    }
 }
 
 impl<K: Kernel<Storage = Floats>> TriangleBlocks<'_, K> {
-    /// The slot of a lane's triangle.
-    #[inline(always)]
-    pub(super) fn slot_of<S: Simd>(&self, pairs: &Pairs<S>, group: &Group<S>, lane: usize) -> usize {
-        pairs.block * BLOCK + usize::from(group.slots[lane])
-    }
-
     /// The corners of each lane's triangle as the kernel sees them.
     #[inline(always)]
-    pub(super) fn corners_each<S: Simd>(
-        &self,
-        s: S,
-        pairs: &Pairs<S>,
-        group: &Group<S>,
-    ) -> [Vec3Lanes<S>; 3] {
+    fn corners_each<S: Simd>(&self, s: S, block: usize, lanes: &Lanes) -> [Vec3Lanes<S>; 3] {
         if self.in_place {
-            return self.corners_in_place(s, &self.ids_of(pairs, group));
+            return self.corners_in_place(s, &self.ids_of(lanes));
         }
-        let slot = s.load_bytes(group.slots);
-        let first = pairs.block * (BLOCK / ROW) * K::ROWS;
+        let slot = s.load_bytes(lanes.slots);
+        let first = block * (BLOCK / ROW) * K::ROWS;
         let packed = &self.units[first..first + BLOCK / ROW * K::ROWS];
         let mut corners = [[s.splat(0.0); 3]; 3];
         for (corner, values) in corners.iter_mut().enumerate() {
@@ -80,10 +130,10 @@ impl<K: Kernel<Storage = Floats>> TriangleBlocks<'_, K> {
 
     /// The numbers of the triangles; lanes without a pair repeat the first.
     #[inline(always)]
-    fn ids_of<S: Simd>(&self, pairs: &Pairs<S>, group: &Group<S>) -> [u32; ROW] {
-        let mut ids = [self.ids.get(self.slot_of(pairs, group, 0)); ROW];
-        for (lane, id) in ids.iter_mut().enumerate().take(group.wanted.count_ones() as usize) {
-            *id = self.ids.get(self.slot_of(pairs, group, lane));
+    fn ids_of(&self, lanes: &Lanes) -> [u32; ROW] {
+        let mut ids = [self.ids.get(lanes.slot(0)); ROW];
+        for (lane, id) in ids.iter_mut().enumerate().take(lanes.len) {
+            *id = self.ids.get(lanes.slot(lane));
         }
         ids
     }
@@ -128,7 +178,7 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         while set.mask != 0 && len < S::LANES {
             let object = self.ids.get(set.block * BLOCK + set.mask.trailing_zeros() as usize);
             set.mask &= set.mask - 1;
-            if object != lanes::EMPTY_SLOT {
+            if object != EMPTY_SLOT {
                 chosen[len] = object;
                 len += 1;
             }

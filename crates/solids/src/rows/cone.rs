@@ -32,13 +32,7 @@ impl Packing for Cones {
     }
 
     #[inline(always)]
-    fn test<S: Simd>(
-        s: S,
-        ray: &Prepared<S::F>,
-        values: &Values<S>,
-        half_pad: S::F,
-        t_max: S::F,
-    ) -> Found<S> {
+    fn test<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, t_max: S::F) -> Found<S> {
         let [x, y, z, ax, ay, az, top, radius, slope, lx, ly, lz, hx, hy, hz] = *values;
         let (zero, infinity) = (s.splat(0.0), s.splat(f32::INFINITY));
         let minus_infinity = s.splat(f32::NEG_INFINITY);
@@ -105,8 +99,8 @@ impl Packing for Cones {
         let place = along(s, from, ray.direction, t);
         let mut plain = s.mask(u32::MAX);
         for (place, [low, high]) in place.into_iter().zip([[lx, hx], [ly, hy], [lz, hz]]) {
-            let above = s.le(s.sub(low, half_pad), place);
-            plain = s.and(plain, s.and(above, s.le(place, s.add(high, half_pad))));
+            let above = s.le(s.sub(low, ray.half_pad), place);
+            plain = s.and(plain, s.and(above, s.le(place, s.add(high, ray.half_pad))));
         }
         Found { hit: s.and(crossed, within), t, plain }
     }

@@ -25,13 +25,16 @@ pub struct Prepared<F> {
     /// One over the direction's square.
     pub inverse: F,
     pub t_min: F,
+    /// Half of what boxes are padded by.
+    pub half_pad: F,
 }
 
 impl<F: Copy> Prepared<F> {
     #[inline(always)]
-    pub fn of<S: Simd<F = F>>(s: S, rays: &Packet<S>) -> Self {
+    pub fn of<S: Simd<F = F>>(s: S, rays: &Packet<S>, pad: f32) -> Self {
         let inverse = s.div(s.splat(1.0), dot(s, rays.direction, rays.direction));
-        Self { origin: rays.origin, direction: rays.direction, inverse, t_min: rays.t_min }
+        let half_pad = s.splat(0.5 * pad);
+        Self { origin: rays.origin, direction: rays.direction, inverse, t_min: rays.t_min, half_pad }
     }
 }
 
@@ -45,6 +48,7 @@ impl Prepared<f32> {
             direction: all(self.direction),
             inverse: s.splat(self.inverse),
             t_min: s.splat(self.t_min),
+            half_pad: s.splat(self.half_pad),
         }
     }
 }
@@ -70,8 +74,7 @@ pub trait Packing: 'static {
     fn numbers(solid: &Solid) -> Option<[f32; MOST_ROWS]>;
 
     /// Tests rays against objects in as many lanes, with t up to `t_max`.
-    fn test<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, half_pad: S::F, t_max: S::F)
-    -> Found<S>;
+    fn test<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, t_max: S::F) -> Found<S>;
 }
 
 /// `LANES` objects of a group from a lane on.
@@ -96,14 +99,9 @@ pub fn splat<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S>
 
 /// One object against one ray.
 #[inline(always)]
-pub fn one<K: Packing>(
-    numbers: &[f32; MOST_ROWS],
-    ray: &Ray,
-    half_pad: f32,
-    t_max: f32,
-) -> Option<(f32, bool)> {
-    let prepared = Prepared::of(lanes::Scalar, &Packet::splat(lanes::Scalar, ray));
-    let found = K::test(lanes::Scalar, &prepared, numbers, half_pad, t_max);
+pub fn one<K: Packing>(numbers: &[f32; MOST_ROWS], ray: &Ray, pad: f32, t_max: f32) -> Option<(f32, bool)> {
+    let prepared = Prepared::of(lanes::Scalar, &Packet::splat(lanes::Scalar, ray), pad);
+    let found = K::test(lanes::Scalar, &prepared, numbers, t_max);
     found.hit.then_some((found.t, found.plain))
 }
 

@@ -23,13 +23,7 @@ impl Packing for Spheres {
     }
 
     #[inline(always)]
-    fn test<S: Simd>(
-        s: S,
-        ray: &Prepared<S::F>,
-        values: &Values<S>,
-        half_pad: S::F,
-        t_max: S::F,
-    ) -> Found<S> {
+    fn test<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, t_max: S::F) -> Found<S> {
         let [x, y, z, radius, ..] = *values;
         let zero = s.splat(0.0);
         let from = sub3(s, ray.origin, [x, y, z]);
@@ -41,7 +35,7 @@ impl Packing for Spheres {
         let (within, t) = first(s, enters, leaves, ray.t_min, t_max);
         let hit = s.and(s.le(zero, square), within);
         let place = along(s, from, ray.direction, t);
-        let limit = s.add(radius, half_pad);
+        let limit = s.add(radius, ray.half_pad);
         let far = s.max(s.abs(place[0]), s.max(s.abs(place[1]), s.abs(place[2])));
         Found { hit, t, plain: s.le(far, limit) }
     }
