@@ -102,17 +102,8 @@ impl Grid {
     /// The part of the ray inside the grid and its own range of t, or `None` where there is none.
     #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> Option<Segment> {
-        match Line::unmoved([self.bounds.min, self.bounds.max], ray.origin, ray.direction) {
-            Some(line) => self.clip_line(ray, &line),
-            None => self.clip_far(ray),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn clip_far(&self, ray: &Ray) -> Option<Segment> {
-        let line = Line::moved([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
-        self.clip_line(ray, &line)
+        let corners = [self.bounds.min, self.bounds.max];
+        Line::clipped(corners, ray.origin, ray.direction, |line| self.clip_line(ray, line))
     }
 
     #[inline(always)]

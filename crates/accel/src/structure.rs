@@ -129,8 +129,10 @@ pub trait Builder: Send + Sync {
     /// The structure's id, such as `bmssm-dense`.
     fn id(&self) -> &str;
 
-    /// The settings, as `name=value` separated by blanks.
-    fn settings(&self) -> String;
+    /// The settings, as `name=value` separated by blanks. By default there are none.
+    fn settings(&self) -> String {
+        String::new()
+    }
 
     /// Builds for a scene and a workload, in the current rayon pool.
     ///

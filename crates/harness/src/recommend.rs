@@ -88,7 +88,8 @@ pub struct Candidate {
     pub cost: f64,
     /// Time per ray in ns, geometric mean over ray sets.
     pub ns: f64,
-    /// Time to build in ns, the longest over ray sets.
+    /// Time to build in ns, the longest over ray sets: a structure that is built for its rays is built anew for
+    /// each of them.
     pub build_ns: f64,
     /// Bytes of structure and geometry copy, the most over ray sets.
     pub bytes: u64,

@@ -191,10 +191,6 @@ impl Builder for Planted {
         "planted"
     }
 
-    fn settings(&self) -> String {
-        String::new()
-    }
-
     fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         let Geometry::Triangles(mesh) = &scene.geometry else {
             return Err(BuildError::Unsupported { structure: "planted".into(), what: "boxes".into() });

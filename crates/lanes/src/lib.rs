@@ -1,12 +1,14 @@
 //! Lanes of `f32` whose instruction set is chosen at run time, and what is made of them: packets
 //! of rays, bit maps along a path, and objects packed in blocks of 64.
 
+mod bits;
 mod blocks;
 mod ids;
 mod one_by_one;
 pub mod packet;
 mod simd;
 
+pub use bits::ones;
 pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Shared};
 pub use ids::Ids;
 pub use one_by_one::{OneByOne, Unpacked};

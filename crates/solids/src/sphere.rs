@@ -32,14 +32,9 @@ crossings_by_few!(Sphere);
 #[cfg(test)]
 mod tests {
     use crate::Crossings;
+    use crate::tests::crossings;
     use accel::solid::Sphere;
     use accel::{Ray, Vec3};
-
-    fn crossings(sphere: &Sphere, ray: &Ray) -> Vec<(f64, bool)> {
-        let mut out = Vec::new();
-        sphere.crossings(ray, &mut out);
-        out.iter().map(|c| (c.t, c.enters)).collect()
-    }
 
     #[test]
     fn a_ball_is_entered_and_left() {

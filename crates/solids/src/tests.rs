@@ -1,10 +1,17 @@
 //! Blocks against one by one.
 
-use crate::Solids;
+use crate::{Crossings, Solids};
 use accel::testing::{KINDS, rays, solids};
 use accel::{Geometry, Nearest, Objects, Ray};
 use lanes::packet::{NearestPacket, Packet};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, Level, PackedObjects, ROW, Simd, Task};
+
+/// Where a ray crosses a solid, and whether it enters there.
+pub fn crossings(solid: &impl Crossings, ray: &Ray) -> Vec<(f64, bool)> {
+    let mut out = Vec::new();
+    solid.crossings(ray, &mut out);
+    out.iter().map(|c| (c.t, c.enters)).collect()
+}
 
 struct Both<'a, 's>(&'a Solids<'s>, &'a [u32], &'a [Ray]);
 

@@ -62,11 +62,11 @@ impl Record {
         self.next_seed += 1;
         self.refused += u64::from(case.refused);
         self.exact += case.exact;
+        self.hits += case.hits;
         let room = MOST.saturating_sub(self.differences.len());
         self.differences.extend(case.differences.into_iter().take(room));
         for held in case.held {
             self.rays += held.rays;
-            self.hits += held.hits;
             *self.by_structure.entry(held.structure).or_default() += held.rays;
             *self.by_level.entry(held.level).or_default() += held.rays;
             *self.by_threads.entry(case.threads).or_default() += held.rays;

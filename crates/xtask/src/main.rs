@@ -70,10 +70,7 @@ fn main() -> ExitCode {
                 Ok(_) => ExitCode::SUCCESS,
                 Err(why) => fail(&format!("set-up failed: {why}")),
             },
-            Err(why) => {
-                eprintln!("xtask: {why}");
-                ExitCode::from(2)
-            }
+            Err(why) => misused(why),
         },
         ("compare", _) => match setup::run(&places, Wanted::Usual) {
             Ok(ready) => compare::run(&places, &ready, &rest),
@@ -95,22 +92,12 @@ fn main() -> ExitCode {
             }
             Err(why) => fail(&why),
         },
-        ("fuzz", _) => match fuzz::seconds(&rest) {
-            Ok(seconds) => fuzz::run(&places, seconds),
-            Err(why) => {
-                eprintln!("xtask: {why}");
-                ExitCode::from(2)
-            }
-        },
+        ("fuzz", _) => fuzz::seconds(&rest).map_or_else(misused, |seconds| fuzz::run(&places, seconds)),
         ("sanitize", true) => sanitize::run(&places),
         ("supply", true) => sanitize::supply(&places),
-        ("interrupt", _) => match interrupt::moments(&rest) {
-            Ok(moments) => interrupt::run(&places, moments),
-            Err(why) => {
-                eprintln!("xtask: {why}");
-                ExitCode::from(2)
-            }
-        },
+        ("interrupt", _) => {
+            interrupt::moments(&rest).map_or_else(misused, |moments| interrupt::run(&places, moments))
+        }
         ("processors", true) => processors::run(&places),
         ("aarch64", true) => aarch64::run(&places),
         ("help" | "--help" | "-h", _) => {
@@ -132,6 +119,12 @@ fn structure(places: &places::Places) -> ExitCode {
         }
         Err(why) => fail(&why),
     }
+}
+
+/// Says what is wrong with the arguments.
+fn misused(why: String) -> ExitCode {
+    eprintln!("xtask: {why}");
+    ExitCode::from(2)
 }
 
 fn fail(message: &str) -> ExitCode {

@@ -32,7 +32,7 @@ impl Active {
 #[inline]
 pub fn packet(rays: &[Ray]) -> RTCRayHit16 {
     assert!(rays.len() <= WIDTH, "a packet holds 16 rays");
-    let mut packet = EMPTY;
+    let mut packet = empty();
     let into = &mut packet.ray;
     for (lane, ray) in rays.iter().enumerate() {
         into.org_x[lane] = ray.origin.x;
@@ -59,32 +59,23 @@ pub fn hit(packet: &RTCRayHit16, lane: usize) -> Option<Hit> {
     })
 }
 
-const NONE: [u32; WIDTH] = [RTC_INVALID_GEOMETRY_ID; WIDTH];
-
-const EMPTY: RTCRayHit16 = RTCRayHit16 {
-    ray: RTCRay16 {
-        org_x: [0.0; WIDTH],
-        org_y: [0.0; WIDTH],
-        org_z: [0.0; WIDTH],
-        tnear: [0.0; WIDTH],
-        dir_x: [1.0; WIDTH],
-        dir_y: [1.0; WIDTH],
-        dir_z: [1.0; WIDTH],
-        time: [0.0; WIDTH],
-        tfar: [f32::NEG_INFINITY; WIDTH],
-        mask: [u32::MAX; WIDTH],
-        id: [0; WIDTH],
-        flags: [0; WIDTH],
-    },
-    hit: RTCHit16 {
-        Ng_x: [0.0; WIDTH],
-        Ng_y: [0.0; WIDTH],
-        Ng_z: [0.0; WIDTH],
-        u: [0.0; WIDTH],
-        v: [0.0; WIDTH],
-        primID: NONE,
-        geomID: NONE,
-        instID: [NONE],
-        instPrimID: [NONE],
-    },
-};
+/// Lanes that start nowhere and reach nothing.
+#[inline]
+fn empty() -> RTCRayHit16 {
+    let none = [RTC_INVALID_GEOMETRY_ID; WIDTH];
+    RTCRayHit16 {
+        ray: RTCRay16 {
+            dir_x: [1.0; WIDTH],
+            tfar: [f32::NEG_INFINITY; WIDTH],
+            mask: [u32::MAX; WIDTH],
+            ..RTCRay16::default()
+        },
+        hit: RTCHit16 {
+            primID: none,
+            geomID: none,
+            instID: [none],
+            instPrimID: [none],
+            ..RTCHit16::default()
+        },
+    }
+}

@@ -104,7 +104,7 @@ pub struct RTCRayHit {
 
 /// 16 rays.
 #[repr(C, align(64))]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct RTCRay16 {
     /// Origins, x.
     pub org_x: [f32; 16],
@@ -134,7 +134,7 @@ pub struct RTCRay16 {
 
 /// 16 hits, as Embree 4.3 and later have them.
 #[repr(C, align(64))]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct RTCHit16 {
     /// Geometry normals, x.
     pub Ng_x: [f32; 16],

@@ -4,6 +4,7 @@ use super::SpaceMaps;
 use super::trace::Built;
 use accel::Ray;
 use accel::dda::Walk;
+use lanes::ones;
 
 impl<O, D> Built<O, D> {
     /// Appends the objects that ⁱR & ʲS & ᵏT names in any cell on the ray's way, or ⁱR & ʲS for a ray of the image where there
@@ -28,11 +29,8 @@ impl<O, D> Built<O, D> {
             }
             _ => {}
         }
-        for (index, mut word) in met.into_iter().enumerate() {
-            while word != 0 {
-                found.push((index * 64) as u32 + word.trailing_zeros());
-                word &= word - 1;
-            }
+        for (index, word) in met.into_iter().enumerate() {
+            found.extend(ones(word).map(|bit| (index * 64 + bit) as u32));
         }
     }
 }

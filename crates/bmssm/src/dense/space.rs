@@ -3,6 +3,7 @@
 use super::Axis;
 use accel::grid::Grid;
 use accel::{Aabb, Bounds};
+use lanes::ones;
 
 /// The bit maps of a grid: ⁱR & ʲS & ᵏT are the candidates of cell (i, j, k).
 #[derive(Clone, Debug)]
@@ -47,11 +48,8 @@ impl SpaceMaps {
         let mut touched = vec![[0u64; 3]; self.axes[0].objects()];
         for (axis, maps) in self.axes.iter().enumerate() {
             for slice in 0..maps.len() as u32 {
-                for (word, mut bits) in maps.slice(slice).iter().copied().enumerate() {
-                    while bits != 0 {
-                        touched[word * 64 + bits.trailing_zeros() as usize][axis] += 1;
-                        bits &= bits - 1;
-                    }
+                for (word, bits) in maps.slice(slice).iter().copied().enumerate() {
+                    ones(bits).for_each(|bit| touched[word * 64 + bit][axis] += 1);
                 }
             }
         }

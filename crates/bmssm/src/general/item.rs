@@ -8,56 +8,52 @@ use accel::{Aabb, Bounds, Vec3, filled, morton};
 use lanes::{Level, Simd, Task};
 
 /// A box, the number of what is in it, and how many objects that is.
+///
+/// The fourth of the least coordinates are the number's bits, the fourth of the greatest the weight's.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
-pub struct Item {
-    /// Least coordinates, and the number's bits.
-    low: [f32; 4],
-    /// Greatest coordinates with their signs changed, so that one minimum serves both ends; and the weight's bits.
-    high: [f32; 4],
-}
+pub struct Item(Extremes);
 
 impl Item {
     /// Nothing.
-    pub const EMPTY: Self = Self { low: [f32::INFINITY; 4], high: [f32::INFINITY; 4] };
+    pub const EMPTY: Self = Self(Extremes::NONE);
 
     /// A box with its number and weight.
     #[inline(always)]
     pub fn new(number: u32, weight: u32, UnitBox { min, max }: &UnitBox) -> Self {
-        Self {
+        Self(Extremes {
             low: [min[0], min[1], min[2], f32::from_bits(number)],
             high: [-max[0], -max[1], -max[2], f32::from_bits(weight)],
-        }
+        })
     }
 
     /// The number.
     #[inline(always)]
     pub fn number(&self) -> u32 {
-        self.low[3].to_bits()
+        self.0.low[3].to_bits()
     }
 
     /// How many objects it stands for.
     #[inline(always)]
     pub fn weight(&self) -> u32 {
-        self.high[3].to_bits()
+        self.0.high[3].to_bits()
     }
 
     /// The box.
     #[inline(always)]
     pub fn bounds(&self) -> UnitBox {
-        Extremes { low: self.low, high: self.high }.bounds()
+        self.0.bounds()
     }
 
     /// Twice the centre.
     #[inline(always)]
     pub fn center(&self, axis: usize) -> f32 {
-        self.low[axis] - self.high[axis]
+        self.0.low[axis] - self.0.high[axis]
     }
 
     /// Twice the centre, with the sign changed in the second.
     #[inline(always)]
     pub fn centers(&self) -> Extremes {
-        let [a, b] = [&self.low, &self.high];
+        let Extremes { low: a, high: b } = &self.0;
         let center = [a[0] - b[0], a[1] - b[1], a[2] - b[2], 0.0];
         Extremes { low: center, high: center.map(|v| -v) }
     }
@@ -65,16 +61,17 @@ impl Item {
     /// The box as it is gathered.
     #[inline(always)]
     pub fn extremes(&self) -> Extremes {
-        Extremes { low: self.low, high: self.high }
+        self.0
     }
 }
 
-/// The range of what was gathered: least coordinates, and greatest with their signs changed; the fourth
-/// means nothing.
+/// The range of what was gathered. The fourth numbers mean nothing but in an [`Item`].
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub struct Extremes {
+    /// Least coordinates.
     low: [f32; 4],
+    /// Greatest coordinates with their signs changed, so that one minimum serves both ends.
     high: [f32; 4],
 }
 
@@ -150,7 +147,7 @@ const CHUNK: usize = 1 << 12;
 impl Scene {
     /// Of all objects.
     pub fn new<B: Bounds>(objects: &B, simd: Level) -> Self {
-        let mut items = filled(Item { low: [0.0; 4], high: [0.0; 4] }, objects.len());
+        let mut items = filled(Item(Extremes { low: [0.0; 4], high: [0.0; 4] }), objects.len());
         let found = map_chunks(&mut items, CHUNK, &|chunk, items| {
             simd.run(Found { objects, first: chunk * CHUNK, items })
         });
@@ -194,7 +191,7 @@ impl<B: Bounds> Task for Found<'_, B> {
         }
         for item in self.items.iter().step_by(SPARSE) {
             for axis in 0..3 {
-                let center = 0.5 * f64::from(item.low[axis]) - 0.5 * f64::from(item.high[axis]);
+                let center = 0.5 * f64::from(item.0.low[axis]) - 0.5 * f64::from(item.0.high[axis]);
                 spread.sum[axis] += center;
                 spread.squares[axis] += center * center;
             }
@@ -262,12 +259,12 @@ impl Task for Unit<'_> {
         for (item, key) in self.items.iter_mut().zip(self.keys) {
             let mut sum = 0;
             for (axis, (from, cells)) in self.curve.iter().enumerate() {
-                item.low[axis] = unit(axis, item.low[axis]);
-                item.high[axis] = -unit(axis, -item.high[axis]);
+                item.0.low[axis] = unit(axis, item.0.low[axis]);
+                item.0.high[axis] = -unit(axis, -item.0.high[axis]);
                 let cell = ((0.5 * item.center(axis) - from) * cells).clamp(0.0, last);
                 sum |= morton::spread(whole(cell)) << axis;
             }
-            let size = |axis: usize| -(item.low[axis] + item.high[axis]) * self.extent[axis];
+            let size = |axis: usize| -(item.0.low[axis] + item.0.high[axis]) * self.extent[axis];
             let large = size(0).max(size(1)).max(size(2)) > LARGE;
             *key = morton::keyed(sum | u32::from(large) << 31, item.number());
         }

@@ -113,7 +113,7 @@ impl<O: PackedObjects> General<O> {
             *hit = self.simd.run(Single::<O, false> { general: self, ray });
             return;
         }
-        self.simd.run(Closest { general: self, rays, hits });
+        self.simd.run(self.nearest_hits(rays, hits));
     }
 
     /// Whether each ray hits anything.
@@ -122,17 +122,30 @@ impl<O: PackedObjects> General<O> {
             *occluded = self.simd.run(Single::<O, true> { general: self, ray }).is_some();
             return;
         }
-        self.simd.run(Occluded { general: self, rays, occluded });
+        self.simd.run(self.any_hits(rays, occluded));
     }
 
     /// Steps that the rays take.
     pub fn count(&self, rays: &[Ray], occlusion: bool) -> Counters {
         // The same steps whatever is compiled: one set is enough.
         if occlusion {
-            Level::Portable.run(Occluded { general: self, rays, occluded: &mut vec![false; rays.len()] })
+            Level::Portable.run(self.any_hits(rays, &mut vec![false; rays.len()]))
         } else {
-            Level::Portable.run(Closest { general: self, rays, hits: &mut vec![None; rays.len()] })
+            Level::Portable.run(self.nearest_hits(rays, &mut vec![None; rays.len()]))
         }
+    }
+
+    fn nearest_hits<'a>(
+        &'a self,
+        rays: &'a [Ray],
+        answers: &'a mut [Option<Hit>],
+    ) -> impl Task<Out = Counters> + 'a {
+        Stream::<_, _, _, false> { general: self, rays, answers, answer: |best: &Nearest| best.hit() }
+    }
+
+    fn any_hits<'a>(&'a self, rays: &'a [Ray], answers: &'a mut [bool]) -> impl Task<Out = Counters> + 'a {
+        let answer = |best: &Nearest| best.object != Nearest::NONE;
+        Stream::<_, _, _, true> { general: self, rays, answers, answer }
     }
 
     /// Bytes held.
@@ -153,42 +166,23 @@ fn mean_side(blocks: &[Item]) -> f32 {
     blocks.iter().map(side).sum::<f32>() / blocks.len().max(1) as f32
 }
 
-struct Closest<'a, O: PackedObjects> {
+/// Answers of many rays, from the nearest hit of each, or for `ANY` from some hit.
+struct Stream<'a, O: PackedObjects, T, A, const ANY: bool> {
     general: &'a General<O>,
     rays: &'a [Ray],
-    hits: &'a mut [Option<Hit>],
+    answers: &'a mut [T],
+    answer: A,
 }
 
-impl<O: PackedObjects> Task for Closest<'_, O> {
+impl<O: PackedObjects, T, A: Fn(&Nearest) -> T, const ANY: bool> Task for Stream<'_, O, T, A, ANY> {
     type Out = Counters;
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> Counters {
         let (mut scratch, stream) = (Scratch::default(), self.general.stream_len());
-        for (rays, hits) in self.rays.chunks(stream).zip(self.hits.chunks_mut(stream)) {
-            self.general.stream::<S, false>(s, rays, &mut scratch);
-            for (hit, best) in hits.iter_mut().zip(&scratch.best) {
-                *hit = best.hit();
-            }
-        }
-        scratch.steps
-    }
-}
-
-struct Occluded<'a, O: PackedObjects> {
-    general: &'a General<O>,
-    rays: &'a [Ray],
-    occluded: &'a mut [bool],
-}
-
-impl<O: PackedObjects> Task for Occluded<'_, O> {
-    type Out = Counters;
-    #[inline(always)]
-    fn run<S: Simd>(self, s: S) -> Counters {
-        let (mut scratch, stream) = (Scratch::default(), self.general.stream_len());
-        for (rays, occluded) in self.rays.chunks(stream).zip(self.occluded.chunks_mut(stream)) {
-            self.general.stream::<S, true>(s, rays, &mut scratch);
-            for (occluded, best) in occluded.iter_mut().zip(&scratch.best) {
-                *occluded = best.object != Nearest::NONE;
+        for (rays, answers) in self.rays.chunks(stream).zip(self.answers.chunks_mut(stream)) {
+            self.general.stream::<S, ANY>(s, rays, &mut scratch);
+            for (answer, best) in answers.iter_mut().zip(&scratch.best) {
+                *answer = (self.answer)(best);
             }
         }
         scratch.steps

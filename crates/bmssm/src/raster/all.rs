@@ -1,7 +1,7 @@
 //! All that a pixel may show, however far away.
 
 use super::{RasterMaps, THICKNESS};
-use lanes::{BLOCK, Blocks, PackedObjects};
+use lanes::{BLOCK, Blocks, PackedObjects, ones};
 
 impl<O: PackedObjects> RasterMaps<O> {
     /// Appends all candidates of a pixel.
@@ -12,15 +12,9 @@ impl<O: PackedObjects> RasterMaps<O> {
         let (row, col) = (row / THICKNESS, col / THICKNESS);
         let across = self.settings.tile;
         for (i, (r, c)) in self.tiles.of(row / across, col / across).enumerate() {
-            let mut seen = r & c;
-            while seen != 0 {
-                let at = i * 64 + seen.trailing_zeros() as usize;
-                seen &= seen - 1;
-                let mut candidates = self.candidates(at, row, col);
-                while candidates != 0 {
-                    found.push(self.geometry.object(at * BLOCK + candidates.trailing_zeros() as usize));
-                    candidates &= candidates - 1;
-                }
+            for at in ones(r & c).map(|bit| i * 64 + bit) {
+                let candidates = ones(self.candidates(at, row, col));
+                found.extend(candidates.map(|bit| self.geometry.object(at * BLOCK + bit)));
             }
         }
     }

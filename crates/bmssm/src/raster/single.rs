@@ -3,7 +3,7 @@
 use super::{RasterMaps, THICKNESS};
 use crate::image_space::ImageSpace;
 use accel::{Footprint, Hit, Nearest, Raster, Ray, vec_bytes};
-use lanes::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Simd, Task};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Simd, Task, ones};
 use std::ops::Range;
 
 /// The ray of one pixel.
@@ -24,10 +24,7 @@ impl<O: PackedObjects> Task for Pixel<'_, O> {
         let mut best = Nearest::new(f32::INFINITY);
         let across = maps.settings.tile;
         for (i, (r, c)) in maps.tiles.of(row / across, col / across).enumerate() {
-            let mut seen = r & c;
-            while seen != 0 {
-                let at = i * 64 + seen.trailing_zeros() as usize;
-                seen &= seen - 1;
+            for at in ones(r & c).map(|bit| i * 64 + bit) {
                 if maps.blocks[at].depth[0] > best.t {
                     maps.geometry.resolve(&one, &mut best);
                     return best;

@@ -106,10 +106,6 @@ impl Builder for Odd {
         "odd"
     }
 
-    fn settings(&self) -> String {
-        String::new()
-    }
-
     fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         if self.0 == Fault::RefusesToBuild {
             return Err(BuildError::Unsupported { structure: "odd".into(), what: "anything".into() });

@@ -29,14 +29,22 @@ pub struct OracleTally {
     pub scenes: usize,
     /// Rays judged, each for every structure.
     pub rays: u64,
-    /// Rays of them that are aimed at edges and corners.
-    pub aimed: u64,
-    /// Rays left out because t is less than the least normal `f32`: the hit-in-padded-bounds invariant may refuse such hits.
-    pub left_out: u64,
     /// By structure.
     pub structures: Vec<OracleRow>,
     /// What is wrong, in words, the first of each kind.
     pub findings: Vec<String>,
+    /// Of the rays.
+    #[serde(flatten)]
+    pub kinds: RayKinds,
+}
+
+/// Rays that the oracle treats in a way of their own.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct RayKinds {
+    /// Rays judged that are aimed at edges and corners.
+    pub aimed: u64,
+    /// Rays left out because t is less than the least normal `f32`: the hit-in-padded-bounds invariant may refuse such hits.
+    pub left_out: u64,
 }
 
 /// A structure's wrong answers.
@@ -132,9 +140,9 @@ fn one_scene(plan: &OraclePlan, scene: &Scene, choices: &[Choice], seed: u64, ta
         let truth: Vec<_> = (0..rays.len()).into_par_iter().map(|i| oracle.closest(&rays.ray(i))).collect();
         let fair: Vec<usize> = (0..rays.len()).filter(|i| !is_denormal(truth[*i].as_ref())).collect();
         tally.rays += fair.len() as u64;
-        tally.left_out += (rays.len() - fair.len()) as u64;
+        tally.kinds.left_out += (rays.len() - fair.len()) as u64;
         if matches!(asked.id.aims_at(), Some(Feature::Edge | Feature::Vertex)) {
-            tally.aimed += fair.len() as u64;
+            tally.kinds.aimed += fair.len() as u64;
         }
         for (row, choice) in choices.iter().enumerate() {
             let place = format!("{}: {} {}", choice.spec, scene.id, asked.id);
@@ -210,7 +218,7 @@ mod tests {
         let subject = Subject { scenes, rays: RaysId::ALL.to_vec(), size: 12, seed: 1 };
         let plan = OraclePlan { subject, least: 6000 };
         let tally = run(&plan, &choices, ()).unwrap();
-        assert!(tally.rays >= 6000 && tally.aimed > 1000, "{tally:?}");
+        assert!(tally.rays >= 6000 && tally.kinds.aimed > 1000, "{tally:?}");
         assert!(!tally.is_exact());
         let [grid, maps, rounding] = &tally.structures[..] else { panic!() };
         assert!(grid.is_exact() && maps.is_exact() && grid.t_ulp_max <= 0.5, "{:?}", tally.findings);

@@ -1,13 +1,13 @@
 //! Eight lanes of AVX2.
 
-use super::{Simd, Task, registers};
+use super::{Simd, Task, entered, intrinsic, registers};
 use std::arch::x86_64::*;
 
 /// Proof that AVX2 is present: only [`run`] makes one.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx2(());
 
-/// Whether this machine has all that [`run`] enables. Virtual machines may hide some of it, and LZCNT, hidden, counts wrongly instead of failing.
+/// Whether this machine has all that is enabled below. Virtual machines may hide some of it, and LZCNT, hidden, counts wrongly instead of failing.
 pub(super) fn present() -> bool {
     is_x86_feature_detected!("avx2")
         && is_x86_feature_detected!("bmi1")
@@ -16,31 +16,13 @@ pub(super) fn present() -> bool {
         && is_x86_feature_detected!("popcnt")
 }
 
-/// Runs `task` with AVX2.
-///
-/// The caller has checked `Level::Avx2.available()`.
-pub(super) fn run<T: Task>(task: T) -> T::Out {
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-    fn inner<T: Task>(task: T) -> T::Out {
-        task.run(Avx2(()))
-    }
-    // SAFETY: `Level::run` calls this only where `present` found every feature enabled here.
-    unsafe { inner(task) }
-}
-
-/// Wraps intrinsics without preconditions but their instruction set.
-macro_rules! intrinsic {
-    ($e:expr) => {
-        // SAFETY: the token `Avx2` exists only where the feature was detected, and the
-        // intrinsic touches no memory.
-        unsafe { $e }
-    };
-}
+entered!(Avx2, "avx2,bmi1,bmi2,lzcnt,popcnt");
 
 impl Simd for Avx2 {
     registers! {
         8 of __m256, __m256, __m256i;
         splat _mm256_set1_ps; load _mm256_loadu_ps; store _mm256_storeu_ps;
+        roots _mm256_sqrt_ps;
         floats add = _mm256_add_ps, sub = _mm256_sub_ps, mul = _mm256_mul_ps, div = _mm256_div_ps, min = _mm256_min_ps, max = _mm256_max_ps;
         comparisons lt = _mm256_cmp_ps::<_CMP_LT_OQ>, le = _mm256_cmp_ps::<_CMP_LE_OQ>, eq = _mm256_cmp_ps::<_CMP_EQ_OQ>;
         masks and = _mm256_and_ps, or = _mm256_or_ps;
@@ -48,19 +30,9 @@ impl Simd for Avx2 {
 
     #[inline(always)]
     fn apart<T: Task>(self, task: T) -> T::Out {
-        #[inline(never)]
-        #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-        fn inner<T: Task>(task: T) -> T::Out {
-            task.run(Avx2(()))
-        }
-        // SAFETY: the token `Avx2` exists only where `present` found every feature enabled here.
-        unsafe { inner(task) }
+        self.enter(task)
     }
 
-    #[inline(always)]
-    fn sqrt(self, a: Self::F) -> Self::F {
-        intrinsic!(_mm256_sqrt_ps(a))
-    }
     #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), a))

@@ -1,7 +1,7 @@
 //! Sixteen lanes of AVX-512.
 
 use super::path::{BESIDE, Hull, Path, SLICES};
-use super::{Lists, ROW, Row, SHARE, Simd, Task, registers};
+use super::{Lists, ROW, Row, SHARE, Simd, Task, entered, intrinsic, registers};
 use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
 
@@ -9,7 +9,7 @@ use std::arch::x86_64::*;
 #[derive(Clone, Copy, Debug)]
 pub struct Avx512(());
 
-/// Whether this machine has all that [`run`] enables.
+/// Whether this machine has all that is enabled below.
 pub(super) fn present() -> bool {
     super::avx2::present()
         && is_x86_feature_detected!("avx512f")
@@ -19,31 +19,13 @@ pub(super) fn present() -> bool {
         && is_x86_feature_detected!("avx512vbmi2")
 }
 
-/// Runs `task` with AVX-512.
-///
-/// The caller has checked `Level::Avx512.available()`.
-pub(super) fn run<T: Task>(task: T) -> T::Out {
-    #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi2,avx2,bmi1,bmi2,lzcnt,popcnt")]
-    fn inner<T: Task>(task: T) -> T::Out {
-        task.run(Avx512(()))
-    }
-    // SAFETY: `Level::run` calls this only where `present` found every feature enabled here.
-    unsafe { inner(task) }
-}
-
-/// Wraps intrinsics without preconditions but their instruction set.
-macro_rules! intrinsic {
-    ($e:expr) => {
-        // SAFETY: the token `Avx512` exists only where the features were detected, and
-        // the intrinsic touches no memory.
-        unsafe { $e }
-    };
-}
+entered!(Avx512, "avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi2,avx2,bmi1,bmi2,lzcnt,popcnt");
 
 impl Simd for Avx512 {
     registers! {
         16 of __m512, __mmask16, __m512i;
         splat _mm512_set1_ps; load _mm512_loadu_ps; store _mm512_storeu_ps;
+        roots _mm512_sqrt_ps;
         floats add = _mm512_add_ps, sub = _mm512_sub_ps, mul = _mm512_mul_ps, div = _mm512_div_ps, min = _mm512_min_ps, max = _mm512_max_ps;
         comparisons lt = _mm512_cmp_ps_mask::<_CMP_LT_OQ>, le = _mm512_cmp_ps_mask::<_CMP_LE_OQ>, eq = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
         masks and = _kand_mask16, or = _kor_mask16;
@@ -51,21 +33,9 @@ impl Simd for Avx512 {
 
     #[inline(always)]
     fn apart<T: Task>(self, task: T) -> T::Out {
-        #[inline(never)]
-        #[target_feature(
-            enable = "avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi2,avx2,bmi1,bmi2,lzcnt,popcnt"
-        )]
-        fn inner<T: Task>(task: T) -> T::Out {
-            task.run(Avx512(()))
-        }
-        // SAFETY: the token `Avx512` exists only where `present` found every feature enabled here.
-        unsafe { inner(task) }
+        self.enter(task)
     }
 
-    #[inline(always)]
-    fn sqrt(self, a: Self::F) -> Self::F {
-        intrinsic!(_mm512_sqrt_ps(a))
-    }
     #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(_mm512_abs_ps(a))
@@ -219,13 +189,8 @@ impl Simd for Avx512 {
     fn path_union(self, maps: [&[u64; SLICES]; 3], path: &Path) -> u64 {
         // SAFETY: the token proves the features; each map has the eight words that are loaded.
         unsafe {
-            let word = |map: &[u64; SLICES]| _mm512_loadu_epi64(map.as_ptr().cast());
-            let [a, b, c] = [word(maps[0]), word(maps[1]), word(maps[2])];
-            let slice = _mm256_setr_ps(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0);
-            let next = _mm256_setr_ps(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0);
-            let (low, high) = (_mm256_set1_ps(path.low), _mm256_set1_ps(path.high));
-            let left = _mm256_sub_ps(_mm256_max_ps(slice, low), low);
-            let right = _mm256_sub_ps(_mm256_min_ps(next, high), low);
+            let Steps { words: [a, b, c], slice, next, low, high, left, right } =
+                steps(maps, path.low, path.high);
             let b = touched(b, left, right, path.start[0], path.slope[0]);
             let c = touched(c, left, right, path.start[1], path.slope[1]);
             let in_reach = _mm256_set1_ps((SLICES - 1) as f32);
@@ -241,13 +206,8 @@ impl Simd for Avx512 {
     fn hull_union(self, maps: [&[u64; SLICES]; 3], hull: &Hull) -> u64 {
         // SAFETY: the token proves the features; each map has the eight words that are loaded.
         unsafe {
-            let word = |map: &[u64; SLICES]| _mm512_loadu_epi64(map.as_ptr().cast());
-            let [a, b, c] = [word(maps[0]), word(maps[1]), word(maps[2])];
-            let slice = _mm256_setr_ps(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0);
-            let next = _mm256_setr_ps(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0);
-            let (low, high) = (_mm256_set1_ps(hull.low), _mm256_set1_ps(hull.high));
-            let left = _mm256_sub_ps(_mm256_max_ps(slice, low), low);
-            let right = _mm256_sub_ps(_mm256_min_ps(next, high), low);
+            let Steps { words: [a, b, c], slice, next, low, high, left, right } =
+                steps(maps, hull.low, hull.high);
             let met =
                 _mm256_cmp_ps_mask::<_CMP_GT_OQ>(next, low) & _mm256_cmp_ps_mask::<_CMP_LE_OQ>(slice, high);
             let (b, met) = within(b, left, right, &hull.sides[0], met);
@@ -265,6 +225,34 @@ impl Simd for Avx512 {
     #[inline(always)]
     fn most(self, v: Self::F) -> f32 {
         intrinsic!(_mm512_reduce_max_ps(v))
+    }
+}
+
+/// Eight steps of a slice each, the words of all three maps there, and where a range begins and ends in each of them.
+struct Steps {
+    words: [__m512i; 3],
+    slice: __m256,
+    next: __m256,
+    low: __m256,
+    high: __m256,
+    /// From the beginning of the range on.
+    left: __m256,
+    right: __m256,
+}
+
+/// # Safety
+/// The processor has AVX-512 F and VL.
+#[inline(always)]
+unsafe fn steps(maps: [&[u64; SLICES]; 3], low: f32, high: f32) -> Steps {
+    // SAFETY: the caller vouches for the instruction set; each map has the eight words that are loaded.
+    unsafe {
+        let words = maps.map(|map| _mm512_loadu_epi64(map.as_ptr().cast()));
+        let slice = _mm256_setr_ps(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0);
+        let next = _mm256_setr_ps(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0);
+        let (low, high) = (_mm256_set1_ps(low), _mm256_set1_ps(high));
+        let left = _mm256_sub_ps(_mm256_max_ps(slice, low), low);
+        let right = _mm256_sub_ps(_mm256_min_ps(next, high), low);
+        Steps { words, slice, next, low, high, left, right }
     }
 }
 

@@ -26,7 +26,7 @@ pub use portable::Portable;
 pub use scalar::Scalar;
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use registers::registers;
+use registers::{entered, intrinsic, registers};
 
 use accel::settings::one_of;
 

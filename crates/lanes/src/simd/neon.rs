@@ -1,6 +1,6 @@
 //! Four lanes of NEON, which every aarch64 processor has.
 
-use super::{Simd, Task, registers};
+use super::{Simd, Task, intrinsic, registers};
 use std::arch::aarch64::*;
 
 /// Proof that NEON is present.
@@ -12,33 +12,18 @@ pub(super) fn run<T: Task>(task: T) -> T::Out {
     task.run(Neon(()))
 }
 
-/// Wraps intrinsics without preconditions but their instruction set.
-macro_rules! intrinsic {
-    ($e:expr) => {
-        // SAFETY: NEON is part of every aarch64 target with a standard library, and the
-        // intrinsic touches no memory.
-        #[allow(unused_unsafe)]
-        unsafe {
-            $e
-        }
-    };
-}
-
 const LANE_BITS: [u32; 4] = [1, 2, 4, 8];
 
 impl Simd for Neon {
     registers! {
         4 of float32x4_t, uint32x4_t, uint32x4_t;
         splat vdupq_n_f32; load vld1q_f32; store vst1q_f32;
+        roots vsqrtq_f32;
         floats add = vaddq_f32, sub = vsubq_f32, mul = vmulq_f32, div = vdivq_f32, min = vminq_f32, max = vmaxq_f32;
         comparisons lt = vcltq_f32, le = vcleq_f32, eq = vceqq_f32;
         masks and = vandq_u32, or = vorrq_u32;
     }
 
-    #[inline(always)]
-    fn sqrt(self, a: Self::F) -> Self::F {
-        intrinsic!(vsqrtq_f32(a))
-    }
     #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(vabsq_f32(a))

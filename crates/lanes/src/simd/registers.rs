@@ -1,11 +1,51 @@
 //! What every instruction set does by one intrinsic a function, as a table of names.
 
+/// Wraps intrinsics without preconditions but their instruction set.
+macro_rules! intrinsic {
+    ($e:expr) => {
+        // SAFETY: the token exists only where the instruction set was detected, and the intrinsic touches no memory.
+        #[allow(unused_unsafe)]
+        unsafe {
+            $e
+        }
+    };
+}
+pub(super) use intrinsic;
+
+/// The function that enters an instruction set from a type that proves its presence, and what it enables.
+macro_rules! entered {
+    ($token:ident, $features:literal) => {
+        /// Runs `task` with these instructions.
+        ///
+        /// The caller has checked that the level is available.
+        pub(super) fn run<T: Task>(task: T) -> T::Out {
+            $token(()).apart(task)
+        }
+
+        impl $token {
+            /// Compiled once for each task, and never into its callers.
+            #[inline(always)]
+            fn enter<T: Task>(self, task: T) -> T::Out {
+                #[inline(never)]
+                #[target_feature(enable = $features)]
+                fn inner<T: Task>(task: T) -> T::Out {
+                    task.run($token(()))
+                }
+                // SAFETY: the token exists only where `present` found every feature enabled here.
+                unsafe { inner(task) }
+            }
+        }
+    };
+}
+pub(super) use entered;
+
 /// In an `impl` of [`Simd`](super::Simd): the number of lanes and the types of registers, how they are filled, loaded and
 /// stored, and what is one intrinsic without preconditions but the instruction set.
 macro_rules! registers {
     (
         $lanes:literal of $f:ty, $m:ty, $u:ty;
         splat $splat:path; load $load:path; store $store:path;
+        roots $root:path;
         floats $($float:ident = $of_floats:path),*;
         comparisons $($compare:ident = $of_both:path),*;
         masks $($mask:ident = $of_masks:path),*;
@@ -17,11 +57,7 @@ macro_rules! registers {
 
         #[inline(always)]
         fn splat(self, v: f32) -> Self::F {
-            // SAFETY: the token exists only where the instruction set was detected.
-            #[allow(unused_unsafe)]
-            unsafe {
-                $splat(v)
-            }
+            intrinsic!($splat(v))
         }
         #[inline(always)]
         fn load(self, from: &[f32]) -> Self::F {
@@ -35,34 +71,26 @@ macro_rules! registers {
             // SAFETY: the token exists only where the instruction set was detected; the slice has as many floats.
             unsafe { $store(to.as_mut_ptr(), v) }
         }
+        #[inline(always)]
+        fn sqrt(self, a: Self::F) -> Self::F {
+            intrinsic!($root(a))
+        }
         $(
             #[inline(always)]
             fn $float(self, a: Self::F, b: Self::F) -> Self::F {
-                // SAFETY: the token exists only where the instruction set was detected; no memory is touched.
-                #[allow(unused_unsafe)]
-                unsafe {
-                    $of_floats(a, b)
-                }
+                intrinsic!($of_floats(a, b))
             }
         )*
         $(
             #[inline(always)]
             fn $compare(self, a: Self::F, b: Self::F) -> Self::M {
-                // SAFETY: the token exists only where the instruction set was detected; no memory is touched.
-                #[allow(unused_unsafe)]
-                unsafe {
-                    $of_both(a, b)
-                }
+                intrinsic!($of_both(a, b))
             }
         )*
         $(
             #[inline(always)]
             fn $mask(self, a: Self::M, b: Self::M) -> Self::M {
-                // SAFETY: the token exists only where the instruction set was detected; no memory is touched.
-                #[allow(unused_unsafe)]
-                unsafe {
-                    $of_masks(a, b)
-                }
+                intrinsic!($of_masks(a, b))
             }
         )*
     };

@@ -10,7 +10,9 @@ use lanes::{Row, Simd};
 /// kernels see it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
+    /// By how much boxes are padded on every side.
     pub(super) pad: f32,
+    /// The middle of the scene.
     pub(super) center: Vec3,
     /// Rays whose origin is no farther than this from the centre, on each axis, have hits whose position
     /// `f32` gives well within half the padding.

@@ -207,7 +207,8 @@ fn oracle_text(tally: &OracleTally) -> String {
         let most = Value::figure(Some(row.t_ulp_max), units::ratio);
         table.push([Value::text(&row.structure)].into_iter().chain(counts.map(Value::count)).chain([most]));
     }
-    let (scenes, aimed, left) = (tally.scenes, units::count(tally.aimed), units::count(tally.left_out));
+    let (scenes, aimed, left) =
+        (tally.scenes, units::count(tally.kinds.aimed), units::count(tally.kinds.left_out));
     let mut text = table.text();
     text.push_str(&format!(
         "\n{scenes} scenes; {aimed} of the rays aimed at edges and corners; {left} left out, their t being denormal"

@@ -7,6 +7,14 @@ use harness::units;
 use std::fmt::Write;
 use trade::Trade;
 
+/// What the sections are about.
+const ORDINARY: &str = "Images, ambient occlusion, reflected light.";
+const HUNTING: &str = "Through random points, at edges and corners, from surfaces and from inside: far above what an image shows.";
+const CURVE: &str = "Errors are of ordinary rays. A time in brackets is that over the rounded scene in `f32`: unpacking such corners is not in \
+             it. *Grown*: each triangle made larger by what rounding moves it. Stars: nothing else of the structure and \
+             scene is as small, as fast and as right.";
+const LEAVING: &str = "Hits of an image, each with one ray into the hemisphere before it, by `ssm`. Distances are in extents of the scene.";
+
 /// The report as Markdown: conclusions first, then every table that the record has figures for.
 pub fn page(trade: &Trade) -> String {
     let mut out = String::from("# Accuracy and its cost\n\n");
@@ -31,38 +39,16 @@ pub fn page(trade: &Trade) -> String {
         found.kernels.markdown()
     );
     let _ = writeln!(out, "## What counts\n\n{}\n", kinds(trade));
-    section(
-        &mut out,
-        "Ordinary rays",
-        "Images, ambient occlusion, reflected light.",
-        &table::ordinary(&trade.rows),
-    );
-    section(
-        &mut out,
-        "Rays that hunt for errors",
-        "Through random points, at edges and corners, from surfaces and from inside: far above what an image shows.",
-        &table::hunting(&trade.rows),
-    );
+    section(&mut out, "Ordinary rays", ORDINARY, &table::ordinary(&trade.rows));
+    section(&mut out, "Rays that hunt for errors", HUNTING, &table::hunting(&trade.rows));
     if !trade.curve.is_empty() {
-        section(
-            &mut out,
-            "The curve of precision",
-            "Errors are of ordinary rays. A time in brackets is that over the rounded scene in `f32`: unpacking such corners is not in \
-             it. *Grown*: each triangle made larger by what rounding moves it. Stars: nothing else of the structure and \
-             scene is as small, as fast and as right.",
-            &table::curve(&trade.curve),
-        );
+        section(&mut out, "The curve of precision", CURVE, &table::curve(&trade.curve));
     }
     if !trade.extremes.is_empty() {
         let _ = writeln!(out, "## Extremes\n\n{}\n", extremes(trade));
     }
     if !trade.leaving.is_empty() {
-        section(
-            &mut out,
-            "Rays that leave surfaces",
-            "Hits of an image, each with one ray into the hemisphere before it, by `ssm`. Distances are in extents of the scene.",
-            &table::leaving(&trade.leaving),
-        );
+        section(&mut out, "Rays that leave surfaces", LEAVING, &table::leaving(&trade.leaving));
     }
     if !trade.skipped.is_empty() {
         out.push_str("## Left out\n\n");

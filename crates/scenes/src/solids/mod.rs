@@ -46,43 +46,16 @@ mod tests {
     #[test]
     fn each_kind_is_read() {
         let text = "
-            [[solid]]
-            kind = 'triangle'
-            corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-            [[solid]]
-            kind = 'box'
-            min = [0, 0, 0]
-            max = [1, 2, 3]
-            [[solid]]
-            kind = 'sphere'
-            center = [0, 0.5, 0]
-            radius = 2
-            [[solid]]
-            kind = 'cone'
-            base = [0, 0, 0]
-            base_radius = 1.5
-            top = [0, 0, 2]
-            [[solid]]
-            kind = 'cylinder'
-            base = [0, 0, 0]
-            top = [0, 0, 2]
-            radius = 0.5
-            [[solid]]
-            kind = 'disc'
-            center = [0, 0, 0]
-            normal = [0, 1, 0]
-            radius = 1
-            [[solid]]
-            kind = 'quadric'
-            coefficients = [1, 1, -1, 0, 0, 0, 0, 0, 0, -1]
-            min = [-2, -2, -2]
-            max = [2, 2, 2]
-            [[solid]]
-            kind = 'torus'
-            center = [0, 0, 0]
-            axis = [0, 0, 1]
-            major = 2
-            minor = 0.5
+            solid = [
+                { kind = 'triangle', corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] },
+                { kind = 'box', min = [0, 0, 0], max = [1, 2, 3] },
+                { kind = 'sphere', center = [0, 0.5, 0], radius = 2 },
+                { kind = 'cone', base = [0, 0, 0], base_radius = 1.5, top = [0, 0, 2] },
+                { kind = 'cylinder', base = [0, 0, 0], top = [0, 0, 2], radius = 0.5 },
+                { kind = 'disc', center = [0, 0, 0], normal = [0, 1, 0], radius = 1 },
+                { kind = 'quadric', coefficients = [1, 1, -1, 0, 0, 0, 0, 0, 0, -1], min = [-2, -2, -2], max = [2, 2, 2] },
+                { kind = 'torus', center = [0, 0, 0], axis = [0, 0, 1], major = 2, minor = 0.5 },
+            ]
         ";
         let definition = Definition::parse(&format!("{HEAD}{text}")).unwrap();
         let kinds: Vec<_> = definition.solids.iter().map(accel::Solid::kind).collect();

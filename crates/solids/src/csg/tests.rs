@@ -1,14 +1,9 @@
 use super::*;
+use crate::tests::crossings;
 use accel::solid::{Cone, Expression, Implicit, Sphere, Torus};
 use accel::{Aabb, Vec3};
 use proptest::prelude::*;
 use std::sync::Arc;
-
-fn crossings(solid: &Solid, ray: &Ray) -> Vec<(f64, bool)> {
-    let mut out = Vec::new();
-    solid.crossings(ray, &mut out);
-    out.iter().map(|c| (c.t, c.enters)).collect()
-}
 
 fn ball(x: f32, radius: f32) -> Solid {
     Solid::Sphere(Sphere { center: Vec3::X * x, radius })

@@ -1,4 +1,5 @@
 use super::*;
+use crate::tests::crossings;
 use accel::solid::{Expression, Sphere};
 use accel::{Aabb, Vec3};
 use proptest::prelude::*;
@@ -7,12 +8,6 @@ use std::sync::Arc;
 fn implicit(text: &str, half: f32) -> Implicit {
     let bounds = Aabb { min: Vec3::splat(-half), max: Vec3::splat(half) };
     Implicit::new(Arc::new(Expression::parse(text).unwrap()), bounds)
-}
-
-fn crossings(solid: &Implicit, ray: &Ray) -> Vec<(f64, bool)> {
-    let mut out = Vec::new();
-    solid.crossings(ray, &mut out);
-    out.iter().map(|c| (c.t, c.enters)).collect()
 }
 
 #[test]

@@ -50,22 +50,6 @@ impl Frame {
         }
     }
 
-    /// The part of a ray inside the grid and its own range of t, or `None` where there is none.
-    #[inline(always)]
-    pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
-        match Line::unmoved([self.bounds.min, self.bounds.max], ray.origin, ray.direction) {
-            Some(line) => self.clip_line(ray, &line),
-            None => self.clip_far(ray),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn clip_far(&self, ray: &Ray) -> Option<ClippedSegment> {
-        let line = Line::moved([self.bounds.min, self.bounds.max], ray.origin, ray.direction);
-        self.clip_line(ray, &line)
-    }
-
     #[inline(always)]
     fn clip_line(&self, ray: &Ray, line: &Line) -> Option<ClippedSegment> {
         let direction = ray.direction.to_array().map(f64::from);
@@ -101,6 +85,13 @@ impl Frame {
             way.forward[a] = u32::from(delta >= 0.0);
         }
         Some(way)
+    }
+
+    /// The part of a ray inside the grid and its own range of t, or `None` where there is none.
+    #[inline(always)]
+    pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
+        let corners = [self.bounds.min, self.bounds.max];
+        Line::clipped(corners, ray.origin, ray.direction, |line| self.clip_line(ray, line))
     }
 }
 

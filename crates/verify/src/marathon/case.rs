@@ -29,13 +29,15 @@ impl Size {
 pub(super) struct Case {
     pub(super) refused: bool,
     pub(super) threads: usize,
+    /// Where rays were traced, and how far away the farthest of them began.
+    pub(super) reach: Option<Reach>,
     pub(super) shape: String,
     /// What kind of rays.
     pub(super) kind: String,
     pub(super) objects: u64,
-    /// Where rays were traced, and how far away the farthest of them began.
-    pub(super) reach: Option<Reach>,
     pub(super) held: Vec<Held>,
+    /// Of the rays of all that held.
+    pub(super) hits: u64,
     pub(super) exact: u64,
     /// With the seed.
     pub(super) differences: Vec<String>,
@@ -49,7 +51,6 @@ pub(super) struct Held {
     /// Its instruction set.
     pub(super) level: String,
     pub(super) rays: u64,
-    pub(super) hits: u64,
 }
 
 impl Case {
@@ -90,7 +91,11 @@ impl Case {
         for _ in 0..size.structures {
             let spec = cases::structure_with(&mut numbers, kernel);
             match judged.hold(&spec) {
-                Ok(rays) => self.held.push(Held::new(&spec, rays, judged.hits())),
+                Ok(0) => self.held.push(Held::new(&spec, 0)),
+                Ok(rays) => {
+                    self.hits += judged.hits();
+                    self.held.push(Held::new(&spec, rays));
+                }
                 Err(difference) => self.differences.push(here(&difference)),
             }
         }
@@ -102,11 +107,10 @@ impl Case {
 }
 
 impl Held {
-    fn new(spec: &str, rays: u64, hits: u64) -> Self {
+    fn new(spec: &str, rays: u64) -> Self {
         let parts: Vec<&str> = spec.split(',').collect();
         let level = parts.iter().find_map(|part| part.strip_prefix("simd=")).unwrap_or("default");
-        let hits = if rays == 0 { 0 } else { hits };
-        Self { structure: parts[0].to_owned(), level: level.to_owned(), rays, hits }
+        Self { structure: parts[0].to_owned(), level: level.to_owned(), rays }
     }
 }
 

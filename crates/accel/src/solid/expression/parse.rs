@@ -44,19 +44,24 @@ struct Parser {
 
 impl Parser {
     fn sum(&mut self) -> Result<u16, ParseError> {
-        let mut left = self.product()?;
-        while let Some(sign) = self.take_one_of("+-") {
-            let right = self.product()?;
-            left = self.two(if sign == '+' { Operation::Add } else { Operation::Sub }, left, right)?;
-        }
-        Ok(left)
+        self.chain("+-", [Operation::Add, Operation::Sub], Self::product)
     }
 
     fn product(&mut self) -> Result<u16, ParseError> {
-        let mut left = self.signed()?;
-        while let Some(sign) = self.take_one_of("*/") {
-            let right = self.signed()?;
-            left = self.two(if sign == '*' { Operation::Mul } else { Operation::Div }, left, right)?;
+        self.chain("*/", [Operation::Mul, Operation::Div], Self::signed)
+    }
+
+    /// What binds more, joined from the left by two signs of the same rank.
+    fn chain(
+        &mut self,
+        signs: &str,
+        [first, second]: [Operation; 2],
+        part: impl Fn(&mut Self) -> Result<u16, ParseError>,
+    ) -> Result<u16, ParseError> {
+        let mut left = part(self)?;
+        while let Some(sign) = self.take_one_of(signs) {
+            let right = part(self)?;
+            left = self.two(if signs.starts_with(sign) { first } else { second }, left, right)?;
         }
         Ok(left)
     }
