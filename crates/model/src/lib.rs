@@ -11,6 +11,6 @@ mod tessellate;
 
 pub use errors::Errors;
 pub use page::{charts, conclusions, page, table};
-pub use record::{Form, Model, Row, SceneRows};
+pub use record::{Form, Model, ModelRow, SceneRows};
 pub use study::{Plan, StudyError, run};
 pub use tessellate::{Tessellation, segments, tessellate};

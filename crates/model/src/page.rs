@@ -1,6 +1,6 @@
 //! Table, conclusions, charts and the page of them.
 
-use crate::record::{Form, Model, Row, SceneRows};
+use crate::record::{Form, Model, ModelRow, SceneRows};
 use harness::units::{self, figure as digits, short};
 use report::chart::palette::{self, Shape};
 use report::chart::{Axis, Line, Mark, Plot, Sheet, Sign};
@@ -35,7 +35,7 @@ pub fn table(model: &Model) -> Table {
     table
 }
 
-fn cells(scene: &SceneRows, row: &Row) -> Vec<Value> {
+fn cells(scene: &SceneRows, row: &ModelRow) -> Vec<Value> {
     let number = |value: f64| Value::figure(Some(value), digits);
     let errors = &row.errors;
     let star = if row.front { " *" } else { "" };
@@ -78,7 +78,7 @@ fn conclusion(model: &Model, scene: &SceneRows) -> Option<String> {
             scene.ended
         ));
     };
-    let times = |of: &dyn Fn(&Row) -> f64| short(of(row) / of(truth).max(f64::MIN_POSITIVE));
+    let times = |of: &dyn Fn(&ModelRow) -> f64| short(of(row) / of(truth).max(f64::MIN_POSITIVE));
     let list = match (row.list_ns, truth.list_ns) {
         (Some(level), Some(truth)) => format!(", {} times on a list", short(level / truth)),
         _ => String::new(),
@@ -141,9 +141,9 @@ pub fn charts(model: &Model) -> String {
     sheet.file()
 }
 
-fn plot(scene: &SceneRows, what: &str, horizontal: Axis, x: impl Fn(&Row) -> f64) -> Plot {
-    let value = |row: &Row| (x(row), row.errors.wrong_part().max(NONE));
-    let mark = |row: &Row| {
+fn plot(scene: &SceneRows, what: &str, horizontal: Axis, x: impl Fn(&ModelRow) -> f64) -> Plot {
+    let value = |row: &ModelRow| (x(row), row.errors.wrong_part().max(NONE));
+    let mark = |row: &ModelRow| {
         let (class, shape, label) = match row.form {
             Form::True => ("s0", Shape::Star, "true".to_owned()),
             Form::Level(level) => ("s1", Shape::Circle, level.to_string()),

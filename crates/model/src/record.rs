@@ -31,7 +31,7 @@ impl fmt::Display for Form {
 
 /// A scene in one form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct ModelRow {
     /// The form.
     pub form: Form,
     /// Solids or triangles.
@@ -54,7 +54,7 @@ pub struct Row {
     pub front: bool,
 }
 
-impl Row {
+impl ModelRow {
     /// Bytes of scene and structure.
     pub fn bytes(&self) -> u64 {
         self.scene_bytes + self.structure_bytes
@@ -69,7 +69,7 @@ pub struct SceneRows {
     /// What kinds of solids there are, and how many.
     pub kinds: String,
     /// The true objects first, then levels in order.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ModelRow>,
     /// Why there are no more levels.
     pub ended: String,
 }
@@ -83,12 +83,12 @@ impl SceneRows {
     }
 
     /// The true objects.
-    pub fn truth(&self) -> Option<&Row> {
+    pub fn truth(&self) -> Option<&ModelRow> {
         self.rows.iter().find(|row| row.form == Form::True)
     }
 
     /// The lowest level with at most this part of its pixels wrong.
-    pub fn enough(&self, most_wrong: f64) -> Option<&Row> {
+    pub fn enough(&self, most_wrong: f64) -> Option<&ModelRow> {
         self.rows.iter().find(|row| row.form != Form::True && row.errors.wrong_part() <= most_wrong)
     }
 }

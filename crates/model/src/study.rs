@@ -1,7 +1,7 @@
 //! The study: each scene as it is and at rising levels.
 
 use crate::errors::{Errors, Shown, Truth, errors, normal_of};
-use crate::record::{FORMAT, Form, Model, Row, SceneRows};
+use crate::record::{FORMAT, Form, Model, ModelRow, SceneRows};
 use crate::tessellate::{Tessellation, tessellate};
 use accel::solid::Shape;
 use accel::{Accel, Geometry, Hit, RaySet, Scene, Solid, Workload, vec_bytes};
@@ -127,7 +127,7 @@ fn study(plan: &Plan, scene: &Scene, mut begun: impl FnMut(Form)) -> Result<Scen
         let judge =
             |hits: &[Option<Hit>]| errors(&truth, &Shown { hits, of: &of_facet }, plan.max_displacement);
         let row = row(plan, Form::Level(level), &tessellated, &rays, judge)?;
-        rows.push(Row { tessellate_ns, ..row });
+        rows.push(ModelRow { tessellate_ns, ..row });
     }
     let mut all = SceneRows { scene: scene.id.clone(), kinds: kinds(solids), rows, ended };
     all.mark_front();
@@ -168,7 +168,7 @@ fn row(
     scene: &Scene,
     rays: &Rays,
     judge: impl Fn(&[Option<Hit>]) -> Errors,
-) -> Result<Row, StudyError> {
+) -> Result<ModelRow, StudyError> {
     let clock = Clock::of(rayon::current_num_threads());
     let kernel = "watertight";
     let start = clock.now_of_build();
@@ -179,7 +179,7 @@ fn row(
     drop(general);
     let image = build(plan, scene, kernel, &Workload::of(&rays.image))?;
     let (image_ns, hits) = time(plan, &clock, &*image, &rays.image);
-    Ok(Row {
+    Ok(ModelRow {
         form,
         objects: scene.geometry.len() as u64,
         scene_bytes: bytes_of(&scene.geometry),

@@ -14,14 +14,14 @@ pub struct Overall<'r> {
     /// Number of ray sets in it.
     pub sets: usize,
     /// The structures, the fastest first.
-    pub rows: Vec<Row<'r>>,
+    pub rows: Vec<MeanRow<'r>>,
     /// Structures without figures on too many cells, with the number of those that they have.
     pub left_out: Vec<(&'r str, usize)>,
 }
 
 /// A structure's geometric means.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row<'r> {
+pub struct MeanRow<'r> {
     /// The structure.
     pub structure: &'r str,
     /// Time for a ray in ns.
@@ -55,7 +55,7 @@ pub fn by_kind(record: &Record, threads: usize) -> Vec<Overall<'_>> {
 
 impl<'r> Overall<'r> {
     /// What others are held against: Embree where it was measured, else the fastest.
-    pub fn reference(&self) -> Option<&Row<'r>> {
+    pub fn reference(&self) -> Option<&MeanRow<'r>> {
         self.rows.iter().find(|row| row.structure == "embree").or(self.rows.first())
     }
 
@@ -87,13 +87,13 @@ fn over<'r>(
     let shared: Vec<_> = all.into_iter().filter(is_shared).collect();
     let distinct =
         |part: fn(&(&'r str, &'r str)) -> &'r str| shared.iter().map(part).collect::<BTreeSet<_>>().len();
-    let mut rows: Vec<Row> = kept
+    let mut rows: Vec<MeanRow> = kept
         .iter()
         .filter_map(|(structure, of)| {
             let cells: Vec<&Cell> = shared.iter().map(|key| of[key]).collect();
             let ns: Option<Vec<f64>> = cells.iter().map(|cell| cell.ns()).collect();
             let bytes: Option<Vec<f64>> = cells.iter().map(|cell| bytes_per_object(record, cell)).collect();
-            Some(Row {
+            Some(MeanRow {
                 structure,
                 ns: geometric_mean(&ns?)?,
                 bytes: bytes.and_then(|bytes| geometric_mean(&bytes)),

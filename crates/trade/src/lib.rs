@@ -19,5 +19,5 @@ mod timing;
 pub use accuracy::Accuracy;
 pub use judged::{Judged, KindBounds, Set};
 pub use record::{FORMAT, Trade};
-pub use row::{Row, mark_front};
+pub use row::{TradeRow, mark_front};
 pub use run::{HUNTING, ORDINARY, Plan, TIMED, defaults, run};

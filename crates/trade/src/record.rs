@@ -1,6 +1,6 @@
 //! The record of a trade as a file.
 
-use crate::Row;
+use crate::TradeRow;
 use crate::curve::Precise;
 use crate::extremes::Extreme;
 use crate::leaving::Leaving;
@@ -31,7 +31,7 @@ pub struct Trade {
     /// Scenes.
     pub scenes: Vec<SceneEntry>,
     /// A row for each structure and kernel on each scene.
-    pub rows: Vec<Row>,
+    pub rows: Vec<TradeRow>,
     /// The curve of precision.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub curve: Vec<Precise>,

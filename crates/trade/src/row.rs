@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A structure with a kernel on a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct TradeRow {
     /// Scene.
     pub scene: String,
     /// Structure with its settings.
@@ -40,7 +40,7 @@ pub struct Row {
     pub outcome: Outcome,
 }
 
-impl Row {
+impl TradeRow {
     /// ns per ray and errors in a million rays, where both are known: visible errors on ordinary rays, or what a record of old
     /// has.
     pub fn point(&self) -> Option<(f64, f64)> {
@@ -59,7 +59,7 @@ impl Row {
 }
 
 /// Marks the Pareto front of the rows of one scene.
-pub fn mark_front(rows: &mut [Row]) {
+pub fn mark_front(rows: &mut [TradeRow]) {
     let (known, points): (Vec<usize>, Vec<_>) =
         rows.iter().enumerate().filter_map(|(i, row)| Some((i, row.point()?))).unzip();
     rows.iter_mut().for_each(|row| row.front = false);
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn the_front_is_what_nothing_beats() {
-        let row = |ns: f64, missed: u64| Row {
+        let row = |ns: f64, missed: u64| TradeRow {
             scene: "s".into(),
             structure: "x".into(),
             kernel: Intersector::External,

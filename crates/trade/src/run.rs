@@ -1,7 +1,7 @@
 //! The study: scene by scene, measured and judged.
 
 use crate::judged::{Judged, Set};
-use crate::{FORMAT, Row, Trade, curve, extremes, leaving, mark_front};
+use crate::{FORMAT, Trade, TradeRow, curve, extremes, leaving, mark_front};
 use accel::{Geometry, Scene, Workload};
 use harness::guard::guard;
 use harness::machine::Machine;
@@ -219,7 +219,7 @@ impl<L: Listener> Work<'_, L> {
         all
     }
 
-    fn rows(&mut self, choices: &[Choice], ordinary: &[Set], skipped: &mut Vec<Skipped>) -> Vec<Row> {
+    fn rows(&mut self, choices: &[Choice], ordinary: &[Set], skipped: &mut Vec<Skipped>) -> Vec<TradeRow> {
         let (plan, scene) = (self.plan, self.scene);
         let hunting = self.decide(&HUNTING, plan.hunting, skipped);
         let timed = self.make(&plan.timed, plan.size, skipped);
@@ -245,7 +245,7 @@ impl<L: Listener> Work<'_, L> {
             let ns: Option<Vec<f64>> = mine.iter().map(|cell| cell.ns()).collect();
             let bytes = mine.iter().find_map(|cell| cell.bytes.as_ref());
             let failed = mine.iter().map(|c| &c.outcome).find(|o| !o.is_measured());
-            let mut row = Row {
+            let mut row = TradeRow {
                 scene: scene.id.clone(),
                 structure: name,
                 kernel: choice.intersector(),
@@ -335,7 +335,7 @@ mod tests {
             assert!(exact.errors.t_ulps.largest <= 0.5 && exact.counts.rays >= 4 * 20 * 20);
             assert_eq!(exact.bounds.visible.high, 3.0 / exact.counts.rays as f64);
         }
-        let leaks = |row: &Row| {
+        let leaks = |row: &TradeRow| {
             row.sets.iter().filter(|s| s.rays.starts_with("leak")).map(|s| s.counts.holes).sum::<u64>()
         };
         assert_eq!(leaks(&trade.rows[1]), 0);

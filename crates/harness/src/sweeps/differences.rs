@@ -35,7 +35,7 @@ pub struct Sweep {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Tally {
     /// By structure.
-    pub structures: Vec<Row>,
+    pub structures: Vec<DifferencesRow>,
     /// What differed or failed, in words, the first of each kind.
     pub findings: Vec<String>,
     #[serde(skip)]
@@ -45,7 +45,7 @@ pub struct Tally {
 
 /// A structure's rays and differences.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Row {
+pub struct DifferencesRow {
     /// The structure with its settings.
     pub structure: String,
     /// Rays compared, nearest hits and occlusion counted apart.
@@ -82,7 +82,9 @@ pub fn hunting() -> Vec<String> {
 pub fn run(sweep: &Sweep, choices: &[Choice], mut listener: impl Listener) -> Result<Tally, SceneError> {
     let mut tally = Tally::default();
     for choice in choices {
-        tally.structures.push(Row { structure: choice.spec.to_string(), ..Row::default() });
+        tally
+            .structures
+            .push(DifferencesRow { structure: choice.spec.to_string(), ..DifferencesRow::default() });
         tally.own.push(choice.entry.traits.built_in);
     }
     let mut pass = 0;

@@ -138,12 +138,12 @@ mod paths {
 
     /// What a union is made along.
     #[derive(Clone, Copy)]
-    enum Way<'a> {
+    enum Along<'a> {
         Path(&'a Path),
         Hull(&'a Hull),
     }
 
-    struct Union<'a>(&'a [[u64; SLICES]; 3], Way<'a>);
+    struct Union<'a>(&'a [[u64; SLICES]; 3], Along<'a>);
 
     impl Task for Union<'_> {
         type Out = u64;
@@ -152,8 +152,8 @@ mod paths {
         fn run<S: Simd>(self, s: S) -> u64 {
             let [a, b, c] = self.0;
             match self.1 {
-                Way::Path(path) => s.path_union([a, b, c], path),
-                Way::Hull(hull) => s.hull_union([a, b, c], hull),
+                Along::Path(path) => s.path_union([a, b, c], path),
+                Along::Hull(hull) => s.hull_union([a, b, c], hull),
             }
         }
     }
@@ -192,11 +192,11 @@ mod paths {
                     near |= maps[0][by(along, da)] & maps[1][by(at(0), db)] & maps[2][by(at(1), dc)];
                 }
             }
-            let reference = Union(&maps, Way::Path(&path)).run(Portable);
+            let reference = Union(&maps, Along::Path(&path)).run(Portable);
             prop_assert_eq!(passed & !reference, 0);
             prop_assert_eq!(reference & !near, 0);
             for level in Level::here() {
-                prop_assert_eq!(level.run(Union(&maps, Way::Path(&path))), reference, "{:?}", level);
+                prop_assert_eq!(level.run(Union(&maps, Along::Path(&path))), reference, "{:?}", level);
             }
         }
     }
@@ -213,9 +213,9 @@ mod paths {
         ) {
             let sides = lines.map(|(start, width, slope, other)| [[start, slope], [start + width, other]]);
             let hull = Hull { low, high: low + length, sides };
-            let reference = Union(&maps, Way::Hull(&hull)).run(Portable);
+            let reference = Union(&maps, Along::Hull(&hull)).run(Portable);
             for level in Level::here() {
-                prop_assert_eq!(level.run(Union(&maps, Way::Hull(&hull))), reference, "{:?}", level);
+                prop_assert_eq!(level.run(Union(&maps, Along::Hull(&hull))), reference, "{:?}", level);
             }
             for (along, a, b) in points {
                 let left = along * length;
@@ -262,7 +262,7 @@ mod paths {
                 slope: [way[b] / way[axis], way[c] / way[axis]],
             };
             let maps: [[u64; SLICES]; 3] = [maps[axis], maps[b], maps[c]];
-            Level::here().any(|level| level.run(Union(&maps, Way::Path(&path))) == 0)
+            Level::here().any(|level| level.run(Union(&maps, Along::Path(&path))) == 0)
         };
         (0..20_000).filter(lost).count()
     }

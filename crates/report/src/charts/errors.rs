@@ -1,6 +1,6 @@
 //! Wrong answers against speed.
 
-use crate::aggregate::{Overall, Row};
+use crate::aggregate::{MeanRow, Overall};
 use crate::chart::{Axis, Mark, Plot, Styles, WIDTH};
 use harness::units::{self, short};
 use maud::Markup;
@@ -17,7 +17,7 @@ struct Wrong {
 
 impl Wrong {
     /// Those of a structure, if all of its cells were decided.
-    fn of(row: &Row) -> Option<Self> {
+    fn of(row: &MeanRow) -> Option<Self> {
         let mut sum = Self { answers: 0, rays: 0 };
         for cell in &row.cells {
             let check = cell.check.as_ref()?;
@@ -38,7 +38,7 @@ impl Wrong {
 /// Wrong answers per million rays against ns per ray, a point for each structure whose answers were decided; `None`
 /// without two points. With it, what the chart can't show, in words.
 pub fn errors(overall: &Overall, styles: &Styles) -> Option<(Markup, String)> {
-    let rows: Vec<(&Row, Wrong)> =
+    let rows: Vec<(&MeanRow, Wrong)> =
         overall.rows.iter().filter_map(|row| Some((row, Wrong::of(row)?))).collect();
     if rows.len() < 2 {
         return None;
@@ -49,7 +49,7 @@ pub fn errors(overall: &Overall, styles: &Styles) -> Option<(Markup, String)> {
         0 => String::new(),
         _ => format!("None seen, and drawn as half a one: {}.", none.join(", ")),
     };
-    let mark = |(row, wrong): &(&Row, Wrong)| Mark {
+    let mark = |(row, wrong): &(&MeanRow, Wrong)| Mark {
         value: (wrong.rate(), row.ns),
         shape: styles.shape(row.structure),
         class: format!("mark {}", styles.class(row.structure)),

@@ -1,6 +1,6 @@
 //! Memory against speed, with the Pareto front.
 
-use crate::aggregate::{Overall, Row};
+use crate::aggregate::{MeanRow, Overall};
 use crate::chart::{Axis, Line, Mark, Plot, Styles, WIDTH};
 use harness::front::front;
 use harness::units::{self, figure, times};
@@ -35,7 +35,7 @@ pub fn pareto(overall: &Overall, styles: &Styles) -> Option<(Markup, String)> {
     };
     let points: Vec<(f64, f64)> = rows.iter().map(|(row, bytes)| (*bytes, row.ns / reference.ns)).collect();
     let best = front(&points);
-    let mark = |(i, (row, _)): (usize, &(&Row, f64))| {
+    let mark = |(i, (row, _)): (usize, &(&MeanRow, f64))| {
         let on_front = best.contains(&i);
         Mark {
             value: points[i],
@@ -67,7 +67,13 @@ pub fn pareto(overall: &Overall, styles: &Styles) -> Option<(Markup, String)> {
     Some((plot.svg(), words))
 }
 
-fn tip(row: &Row, (bytes, ratio): (f64, f64), reference: &Row, on_front: bool, overall: &Overall) -> String {
+fn tip(
+    row: &MeanRow,
+    (bytes, ratio): (f64, f64),
+    reference: &MeanRow,
+    on_front: bool,
+    overall: &Overall,
+) -> String {
     let of_memory = match reference.bytes {
         Some(reference) if reference > 0.0 => format!(" ({})", times(bytes / reference)),
         _ => String::new(),

@@ -7,7 +7,7 @@ use harness::units::{self, times};
 use judge::{Counts, Kind};
 use primitives::KernelId;
 use trade::curve::Precise;
-use trade::{Judged, Row, Trade};
+use trade::{Judged, Trade, TradeRow};
 
 /// Sentences, the most important first, and the figures that they are read off.
 pub struct Conclusions {
@@ -35,7 +35,7 @@ struct Cost {
 
 /// The conclusions of a record; none of a record of old, which mixes ordinary rays with others.
 pub fn conclusions(trade: &Trade) -> Option<Conclusions> {
-    let rows: Vec<&Row> = trade.rows.iter().filter(|row| row.ordinary.is_some()).collect();
+    let rows: Vec<&TradeRow> = trade.rows.iter().filter(|row| row.ordinary.is_some()).collect();
     if rows.is_empty() {
         return None;
     }
@@ -87,7 +87,7 @@ pub fn conclusions(trade: &Trade) -> Option<Conclusions> {
         ));
     }
     for (kind, generated) in [("generated scenes", true), ("meshes from elsewhere", false)] {
-        let belongs = |row: &Row| {
+        let belongs = |row: &TradeRow| {
             let source = trade.scenes.iter().find(|scene| scene.id == row.scene).map(|scene| &scene.source);
             source.is_some_and(|source| source.starts_with("generated") == generated)
         };
@@ -167,7 +167,11 @@ fn of_curve(curve: &[Precise]) -> Vec<String> {
     all
 }
 
-fn total(rows: &[&Row], which: impl Fn(&Row) -> bool, errors: impl Fn(&Row) -> Option<&Judged>) -> Counts {
+fn total(
+    rows: &[&TradeRow],
+    which: impl Fn(&TradeRow) -> bool,
+    errors: impl Fn(&TradeRow) -> Option<&Judged>,
+) -> Counts {
     let mut sum = Counts::default();
     rows.iter()
         .filter(|row| which(row))
@@ -176,7 +180,7 @@ fn total(rows: &[&Row], which: impl Fn(&Row) -> bool, errors: impl Fn(&Row) -> O
     sum
 }
 
-fn sums(rows: &[&Row], which: impl Fn(&Row) -> bool) -> Counts {
+fn sums(rows: &[&TradeRow], which: impl Fn(&TradeRow) -> bool) -> Counts {
     total(rows, which, |row| row.ordinary.as_ref())
 }
 
@@ -213,9 +217,14 @@ fn words(cost: &Cost) -> String {
 }
 
 /// A kernel in a structure beside the default one, over the scenes where both have a time.
-fn cost(rows: &[&Row], structure: &str, kernel: KernelId, which: impl Fn(&Row) -> bool) -> Option<Cost> {
+fn cost(
+    rows: &[&TradeRow],
+    structure: &str,
+    kernel: KernelId,
+    which: impl Fn(&TradeRow) -> bool,
+) -> Option<Cost> {
     let find = |scene: &str, kernel| {
-        let own = |row: &&&Row| {
+        let own = |row: &&&TradeRow| {
             let parts: Vec<&str> = row.structure.split([':', ',']).collect();
             // Other settings would be another structure.
             parts[0] == structure && parts[1..].iter().all(|part| part.starts_with("kernel="))
@@ -246,7 +255,7 @@ fn cost(rows: &[&Row], structure: &str, kernel: KernelId, which: impl Fn(&Row) -
     })
 }
 
-fn table(trade: &Trade, rows: &[&Row], structures: &[&str]) -> Table {
+fn table(trade: &Trade, rows: &[&TradeRow], structures: &[&str]) -> Table {
     let mut table = Table::new([
         "structure".into(),
         "kernel".into(),
@@ -275,7 +284,7 @@ fn table(trade: &Trade, rows: &[&Row], structures: &[&str]) -> Table {
     };
     for id in structures {
         for kernel in KernelId::ALL {
-            let own = |row: &Row| {
+            let own = |row: &TradeRow| {
                 row.structure.split(':').next() == Some(*id) && row.kernel == Intersector::BuiltIn(kernel)
             };
             let counts = sums(rows, own);

@@ -6,7 +6,7 @@ use harness::record::{Intersector, id_of};
 use harness::units::{figure, short};
 use primitives::KernelId;
 use trade::curve::Precise;
-use trade::{Row, Trade};
+use trade::{Trade, TradeRow};
 
 const COLUMNS: usize = 3;
 const SIZE: (f64, f64) = (330.0, 240.0);
@@ -59,7 +59,7 @@ pub fn svg(trade: &Trade) -> String {
     sheet.file()
 }
 
-fn family(row: &Row) -> &str {
+fn family(row: &TradeRow) -> &str {
     id_of(&row.structure)
 }
 
@@ -72,12 +72,12 @@ fn shape(kernel: &Intersector) -> Shape {
     SHAPES[place.unwrap_or(SHAPES.len() - 1)]
 }
 
-fn plot(scene: &str, rows: &[Row], families: &[&str]) -> Plot {
-    let mut points: Vec<(&Row, (f64, f64))> =
+fn plot(scene: &str, rows: &[TradeRow], families: &[&str]) -> Plot {
+    let mut points: Vec<(&TradeRow, (f64, f64))> =
         rows.iter().filter(|row| row.scene == scene).filter_map(|row| Some((row, row.point()?))).collect();
     // The front last, so that nothing covers it.
     points.sort_by_key(|(row, _)| row.front);
-    let mark = |(row, (ns, errors)): &(&Row, (f64, f64))| {
+    let mark = |(row, (ns, errors)): &(&TradeRow, (f64, f64))| {
         let class = families.iter().position(|known| *known == family(row)).unwrap_or(families.len());
         Mark {
             value: (*ns, errors.max(NONE)),
@@ -219,7 +219,7 @@ mod tests {
         for scene in 0..scenes {
             let id = format!("a-scene-of-some-length-{scene}");
             for structure in 0..structures {
-                trade.rows.push(Row {
+                trade.rows.push(TradeRow {
                     scene: id.clone(),
                     structure: format!("structure-{structure}:kernel=exact"),
                     kernel: Intersector::BuiltIn(KernelId::ALL[structure % KernelId::ALL.len()]),

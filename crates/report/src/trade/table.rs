@@ -6,15 +6,15 @@ use judge::{Counts, Kind};
 use trade::curve::Precise;
 use trade::extremes::Extreme;
 use trade::leaving::Leaving;
-use trade::{Judged, Row};
+use trade::{Judged, TradeRow};
 
 /// Time, memory and errors on ordinary rays; rows on the front have a star.
-pub fn ordinary(rows: &[Row]) -> Table {
+pub fn ordinary(rows: &[TradeRow]) -> Table {
     judged(rows, |row| row.ordinary.as_ref())
 }
 
 /// The same with errors on rays that hunt for them.
-pub fn hunting(rows: &[Row]) -> Table {
+pub fn hunting(rows: &[TradeRow]) -> Table {
     judged(rows, |row| row.hunting.as_ref())
 }
 
@@ -27,7 +27,7 @@ fn table(texts: &[&str], figures: &[&str]) -> Table {
     Table::new(texts.iter().map(|text| (*text).into()).chain(figures.iter().map(|name| figure(*name))))
 }
 
-fn judged(rows: &[Row], errors: impl Fn(&Row) -> Option<&Judged>) -> Table {
+fn judged(rows: &[TradeRow], errors: impl Fn(&TradeRow) -> Option<&Judged>) -> Table {
     let mut table = table(
         &["scene", "structure"],
         &[
@@ -73,7 +73,7 @@ fn of_kinds(judged: &Judged) -> Vec<Value> {
 }
 
 /// A record of old tells no more than what is missed, invented, or of another object wherever it lies.
-fn of_old(row: &Row) -> Vec<Value> {
+fn of_old(row: &TradeRow) -> Vec<Value> {
     let Some(old) = &row.accuracy else { return (0..10).map(|_| Value::text("failed")).collect() };
     let million = |n: u64| number(Some(n as f64 * 1e6 / old.rays.max(1) as f64));
     let mut cells = vec![Value::text(units::count(old.rays)), million(old.missed), million(old.false_hits)];

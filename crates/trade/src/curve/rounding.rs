@@ -2,7 +2,7 @@
 
 use accel::{Aabb, Corners, Mesh, Vec3, morton};
 
-/// Triangles that share a lattice of their own.
+/// Triangles that share a grid of their own.
 const BLOCK: usize = 64;
 
 /// A triangle is grown by at most so many steps at a corner: one as thin as a needle would reach through the whole scene.
@@ -11,7 +11,7 @@ const MOST_GROWN: f64 = 16.0;
 /// How corners are rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rounding {
-    /// To a lattice of 2^bits places an axis over the scene.
+    /// To a grid of 2^bits places an axis over the scene.
     Scene(u32),
     /// To one over each block of 64 triangles that lie beside each other.
     Block(u32),
@@ -48,7 +48,7 @@ impl Rounding {
         }
     }
 
-    /// Bytes a triangle of what its block keeps beside the corners: where its lattice begins, and three steps.
+    /// Bytes a triangle of what its block keeps beside the corners: where its grid begins, and three steps.
     pub const fn header(self) -> f64 {
         match self {
             Self::Block(_) => 24.0 / BLOCK as f64,
@@ -64,8 +64,8 @@ impl Rounding {
         }
         match self {
             Self::Scene(bits) => {
-                let lattice = Lattice::over(&bounds, bits);
-                each(mesh, |p| lattice.snap(p))
+                let grid = QuantisationGrid::over(&bounds, bits);
+                each(mesh, |p| grid.snap(p))
             }
             Self::Half => {
                 let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
@@ -74,8 +74,8 @@ impl Rounding {
             }
             Self::Block(bits) => blocks(mesh, bits),
             Self::Grown(bits) => {
-                let lattice = Lattice::over(&bounds, bits);
-                apart(mesh, |corners| grow(corners.map(|p| lattice.snap(p)), lattice.diagonal()))
+                let grid = QuantisationGrid::over(&bounds, bits);
+                apart(mesh, |corners| grow(corners.map(|p| grid.snap(p)), grid.diagonal()))
             }
         }
     }
@@ -94,19 +94,20 @@ fn apart(mesh: &Mesh, place: impl Fn(Corners) -> Corners) -> Mesh {
 
 fn blocks(mesh: &Mesh, bits: u32) -> Mesh {
     let bounds = mesh.bounds();
-    let lattice = Lattice::over(&bounds, morton::BITS);
+    let grid = QuantisationGrid::over(&bounds, morton::BITS);
     let key = |i: usize| {
         let [a, b, c] = mesh.corners(i).map(|p| p.as_dvec3());
-        let [x, y, z] = lattice.index(((a + b + c) / 3.0).as_vec3()).map(|i| morton::spread(i as u32));
+        let [x, y, z] = grid.index(((a + b + c) / 3.0).as_vec3()).map(|i| morton::spread(i as u32));
         morton::keyed(x << 2 | y << 1 | z, i as u32)
     };
     let order = morton::sort_by_key((0..mesh.triangles.len()).map(key).collect());
     let mut positions = vec![Vec3::ZERO; 3 * mesh.triangles.len()];
     for block in order.chunks(BLOCK) {
         let numbers = block.iter().map(|key| *key as u32 as usize);
-        let lattice = Lattice::over(&Aabb::of_points(numbers.clone().flat_map(|i| mesh.corners(i))), bits);
+        let grid =
+            QuantisationGrid::over(&Aabb::of_points(numbers.clone().flat_map(|i| mesh.corners(i))), bits);
         for i in numbers {
-            positions[3 * i..3 * i + 3].copy_from_slice(&mesh.corners(i).map(|p| lattice.snap(p)));
+            positions[3 * i..3 * i + 3].copy_from_slice(&mesh.corners(i).map(|p| grid.snap(p)));
         }
     }
     let triangles = (0..mesh.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
@@ -114,13 +115,13 @@ fn blocks(mesh: &Mesh, bits: u32) -> Mesh {
 }
 
 /// Evenly spaced places on each axis.
-struct Lattice {
+struct QuantisationGrid {
     low: [f64; 3],
     step: [f64; 3],
     last: f64,
 }
 
-impl Lattice {
+impl QuantisationGrid {
     fn over(bounds: &Aabb, bits: u32) -> Self {
         let last = f64::from((1u32 << bits) - 1);
         let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());

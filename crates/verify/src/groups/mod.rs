@@ -20,7 +20,7 @@ pub fn all() -> Vec<Group> {
 
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct VerdictRow {
     /// The question's name.
     pub group: &'static str,
     /// The structure.
@@ -33,7 +33,7 @@ pub struct Row {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Verification {
     /// By question, then by structure.
-    pub rows: Vec<Row>,
+    pub rows: Vec<VerdictRow>,
 }
 
 impl Verification {
@@ -52,7 +52,7 @@ pub fn run(pattern: &str, structures: &[String], mut begun: impl FnMut(&Group)) 
         let wanted = |id: &str| structures.is_empty() || structures.iter().any(|name| name == id);
         for entry in registry::entries().iter().filter(|entry| wanted(entry.id)) {
             let verdict = (group.ask)(&Subject::new(entry));
-            verification.rows.push(Row { group: group.name, structure: entry.id, verdict });
+            verification.rows.push(VerdictRow { group: group.name, structure: entry.id, verdict });
         }
     }
     verification
