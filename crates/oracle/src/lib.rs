@@ -15,6 +15,9 @@
 //! - A ray or triangle with a NaN or infinite coordinate, a zero direction or a NaN
 //!   in its range hits nothing. `t_min` and `t_max` may be infinite.
 //!
+//! Spheres are closed likewise, and their roots irrational: they are compared and rounded as integers
+//! ([`sphere_roots`]).
+//!
 //! The signs are those of the products d·(b×a) of the corners relative to the origin:
 //! Woop, Benthin, Wald, *Watertight Ray/Corners Intersection*, JCGT 2(1), 2013, §2,
 //! before any shearing or rounding.
@@ -27,6 +30,7 @@ mod integers;
 mod intersect;
 mod oracle;
 mod rational;
+mod sphere;
 mod verdict;
 
 #[cfg(test)]
@@ -39,4 +43,5 @@ pub use filter::Filter;
 pub use intersect::{ExactHit, intersect};
 pub use oracle::Oracle;
 pub use rational::Rational;
+pub use sphere::{Root, intersect_sphere, sphere_roots};
 pub use verdict::{Judgement, Verdict, classify};

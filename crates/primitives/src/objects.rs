@@ -18,9 +18,11 @@ pub fn with_objects<'s, W: WithObjects<'s>>(scene: &'s Scene, kernel: KernelId, 
     match &scene.geometry {
         Geometry::Triangles(mesh) => with_triangles(mesh.into(), kernel, with),
         Geometry::Boxes(boxes) => with.objects(Boxes::new(boxes)),
-        Geometry::Solids(solids) => with.objects(match kernel.is_single() {
-            true => Solids::new(solids),
-            false => Solids::in_double(solids),
+        Geometry::Solids(solids) => with.objects(match kernel {
+            #[cfg(feature = "exact")]
+            KernelId::Exact => Solids::exact(solids),
+            KernelId::Double => Solids::in_double(solids),
+            _ => Solids::new(solids),
         }),
     }
 }

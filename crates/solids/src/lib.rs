@@ -10,6 +10,7 @@ mod cone;
 mod crossing;
 mod csg;
 mod disc;
+mod exact;
 mod facets;
 mod frame;
 mod group;

@@ -1,5 +1,6 @@
 //! Solids as the objects of a scene.
 
+use crate::exact;
 use crate::frame::Frame;
 use crate::rows::{Cones, MOST_ROWS, Packing, Spheres, one};
 use crate::{Crossing, Crossings};
@@ -16,19 +17,25 @@ use lanes::packet::Packet;
 pub struct Solids<'s> {
     solids: &'s [Solid],
     pub(crate) frame: Frame,
+    exact: bool,
 }
 
 impl<'s> Solids<'s> {
     /// The objects of a scene of solids, which are valid.
     pub fn new(solids: &'s [Solid]) -> Self {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, solid| all.union(solid.bounds()));
-        Self { solids, frame: Frame::of(&bounds) }
+        Self { solids, frame: Frame::of(&bounds), exact: false }
     }
 
     /// The same with every test in double precision.
     pub fn in_double(solids: &'s [Solid]) -> Self {
         let plain = Self::new(solids);
         Self { frame: plain.frame.doubled(), ..plain }
+    }
+
+    /// The same with the true answers for spheres, rounded once: whether a ray hits, and where.
+    pub fn exact(solids: &'s [Solid]) -> Self {
+        Self { exact: true, ..Self::in_double(solids) }
     }
 
     /// Appends every crossing of an object in the ray's range that satisfies the hit-in-padded-bounds invariant, in order.
@@ -82,7 +89,12 @@ impl Objects for Solids<'_> {
                 _ => self.single::<Cones>(id, ray, t_max),
             };
         }
-        let hit = solid.nearest(ray, t_max)?;
+        let hit = match solid {
+            Solid::Sphere(sphere) if self.exact => {
+                Surface { t: exact::nearest(sphere, ray, t_max)?, u: 0.0, v: 0.0 }
+            }
+            _ => solid.nearest(ray, t_max)?,
+        };
         self.holds(id, ray, hit.t).then_some(hit)
     }
 

@@ -69,16 +69,6 @@ impl KernelId {
         self.traits().lossy
     }
 
-    /// Whether single precision will do: what solids are tested in, which have no kernels of their own.
-    pub const fn is_single(self) -> bool {
-        match self {
-            Self::Double => false,
-            #[cfg(feature = "exact")]
-            Self::Exact => false,
-            _ => true,
-        }
-    }
-
     /// Whether no ray slips between two triangles that share an edge.
     pub const fn is_watertight(self) -> bool {
         self.traits().watertight
