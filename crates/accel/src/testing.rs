@@ -132,3 +132,25 @@ pub fn rays(seed: u32, count: u32) -> Vec<Ray> {
     };
     (0..count).map(ray).collect()
 }
+
+/// Spheres with a ray each, every second of which is within a few millionths of the silhouette, at scales of 2^±60 and up to 10^7 from
+/// the origin.
+pub fn spheres_and_rays(count: u32) -> impl Iterator<Item = (Sphere, Ray)> {
+    let mut random = random(61);
+    (0..count).map(move |i| {
+        let mut point = || Vec3::new(random(), random(), random());
+        let (center, away, aside, aim) = (point(), point(), point(), point());
+        let scale = [1.0, 2f32.powi(60), 2f32.powi(-60), 16.0][i as usize / 2 % 4];
+        let offset = if i % 3 == 0 { Vec3::new(1e7, -1e7, 1e7) } else { Vec3::ZERO };
+        let center = (center + offset) * scale;
+        let radius = (0.2 + aim.x.abs()) * scale;
+        let direction = away.as_dvec3().normalize_or(glam::DVec3::X);
+        let across = direction.cross(aside.as_dvec3()).normalize_or(glam::DVec3::Y);
+        let miss = if i.is_multiple_of(2) { 1.0 + f64::from(aim.y) * 1e-6 } else { f64::from(aim.z) * 1.2 };
+        let far = f64::from(scale) * f64::from(2.0 + aim.y.abs() * 20.0);
+        let origin = center.as_dvec3() + across * (miss * f64::from(radius)) - direction * far;
+        let ray = Ray::new(origin.as_vec3(), (direction * f64::from(0.1 + aim.x.abs())).as_vec3());
+        let t_max = if i % 7 == 0 { (far * 2.0) as f32 } else { f32::INFINITY };
+        (Sphere { center, radius }, Ray { t_max, ..ray })
+    })
+}

@@ -16,7 +16,7 @@
 //!   in its range hits nothing. `t_min` and `t_max` may be infinite.
 //!
 //! Spheres are closed likewise, and their roots irrational: they are compared and rounded as integers
-//! ([`sphere_roots`]).
+//! ([`sphere_roots`]). So are those of quadrics, whose boxes are left out of account ([`quadric_roots`]).
 //!
 //! The signs are those of the products d·(b×a) of the corners relative to the origin:
 //! Woop, Benthin, Wald, *Watertight Ray/Corners Intersection*, JCGT 2(1), 2013, §2,
@@ -29,7 +29,9 @@ mod filter;
 mod integers;
 mod intersect;
 mod oracle;
+mod quadric;
 mod rational;
+mod root;
 mod sphere;
 mod verdict;
 
@@ -42,6 +44,8 @@ pub use closest::{closest, closest_unfiltered};
 pub use filter::Filter;
 pub use intersect::{ExactHit, intersect};
 pub use oracle::Oracle;
+pub use quadric::{Roots, quadric_roots};
 pub use rational::Rational;
-pub use sphere::{Root, intersect_sphere, sphere_roots};
+pub use root::Root;
+pub use sphere::{intersect_sphere, sphere_roots};
 pub use verdict::{Judgement, Verdict, classify};

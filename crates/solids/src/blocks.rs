@@ -2,7 +2,7 @@
 
 use crate::frame::Frame;
 use crate::group::{Group, Kind};
-use crate::objects::Solids;
+use crate::objects::{Precision, Solids};
 use crate::rows::{Cones, Prepared, Spheres};
 use accel::{Nearest, Objects, Ray};
 use lanes::packet::{Lanes, NearestPacket, Packet};
@@ -11,8 +11,8 @@ use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd};
 /// Solids in blocks. Each row of 16 slots has a group of rows for each packed kind that is in it.
 #[derive(Clone, Debug)]
 pub struct SolidBlocks<'s> {
-    solids: Solids<'s>,
-    ids: Ids,
+    pub(crate) solids: Solids<'s>,
+    pub(crate) ids: Ids,
     spheres: Kind<Spheres>,
     cones: Kind<Cones>,
 }
@@ -20,17 +20,17 @@ pub struct SolidBlocks<'s> {
 /// A ray prepared for solids.
 #[derive(Clone, Copy, Debug)]
 pub struct OneRay {
-    ray: Ray,
+    pub(crate) ray: Ray,
     near: bool,
-    prepared: Prepared<f32>,
+    pub(crate) prepared: Prepared<f32>,
 }
 
 /// A packet of rays prepared for solids.
 #[derive(Clone, Copy)]
 pub struct ManyRays<S: Simd> {
-    rays: Packet<S>,
-    near: S::M,
-    prepared: Prepared<S::F>,
+    pub(crate) rays: Packet<S>,
+    pub(crate) near: S::M,
+    pub(crate) prepared: Prepared<S::F>,
 }
 
 impl<'s> SolidBlocks<'s> {
@@ -42,6 +42,10 @@ impl<'s> SolidBlocks<'s> {
 
     fn frame(&self) -> &Frame {
         &self.solids.frame
+    }
+
+    fn is_exact(&self) -> bool {
+        self.solids.precision() == Precision::Exact
     }
 
     #[inline(always)]
@@ -192,7 +196,10 @@ impl Blocks for SolidBlocks<'_> {
             if ray.near {
                 let group = self.spheres.group(number);
                 if wanted & group.mask != 0 {
-                    self.group::<Spheres, S>(s, (first, group), wanted & group.mask, ray, best);
+                    match self.is_exact() {
+                        true => self.exact_group(s, (first, group), wanted & group.mask, ray, best),
+                        false => self.group::<Spheres, S>(s, (first, group), wanted & group.mask, ray, best),
+                    }
                 }
                 wanted &= !group.mask;
                 let group = self.cones.group(number);
@@ -212,7 +219,10 @@ impl Blocks for SolidBlocks<'_> {
         let mut left = all;
         let (spheres, cones) = (self.spheres.group(number), self.cones.group(number));
         if spheres.mask & bit != 0 {
-            self.packed::<Spheres, S>(s, slot, spheres, rays, best);
+            match self.is_exact() {
+                true => self.exact_packed(s, slot, spheres, rays, best),
+                false => self.packed::<Spheres, S>(s, slot, spheres, rays, best),
+            }
             left &= !s.bits(rays.near);
         } else if cones.mask & bit != 0 {
             self.packed::<Cones, S>(s, slot, cones, rays, best);

@@ -3,73 +3,35 @@
 //! Bounds of the rounding errors in `f64` decide nearly always; where they don't, integers do. The number of bits is not limited: every
 //! `f32` is an integer in units of the least one that a ray and a sphere have.
 
+mod estimate;
+mod packed;
+
+use estimate::estimate;
+
 use accel::Ray;
 use accel::solid::Sphere;
 use num_bigint::BigInt;
 use std::cmp::Ordering;
 
-/// By how much `f64` rounds.
-const ROUNDING: f64 = 1.0 / (1u64 << 53) as f64;
-
-/// The first t of the sphere with its true value in `[ray.t_min, t_max]`, rounded correctly.
-pub fn nearest(sphere: &Sphere, ray: &Ray, t_max: f32) -> Option<f32> {
-    match estimate(sphere, ray, t_max) {
-        Estimate::Certain(t) => t,
-        Estimate::Open => Integers::of(sphere, ray).and_then(|integers| integers.nearest(ray.t_min, t_max)),
-    }
-}
-
-enum Estimate {
-    Certain(Option<f32>),
-    Open,
-}
-
-/// What bounds of errors can tell.
+/// The first t of the sphere with its true value in the ray's range, rounded correctly, if that is `t_max` at most.
 ///
-/// With f from the centre to the origin, the discriminant is a·r² − |f × d|². A difference of two coordinates is off by one rounding,
-/// a product or sum by one more each: every component of the cross product by 4 roundings of the sum of its terms' sizes at
-/// most, the dot products by 5.
-fn estimate(sphere: &Sphere, ray: &Ray, t_max: f32) -> Estimate {
-    let f = ray.origin.as_dvec3() - sphere.center.as_dvec3();
-    let (d, r) = (ray.direction.as_dvec3(), f64::from(sphere.radius));
-    let a = d.length_squared();
-    let b = -f.dot(d);
-    let b_off = 6.0 * ROUNDING * f.abs().dot(d.abs());
-    let cross = f.cross(d);
-    let (g, e) = (f.abs(), d.abs());
-    let sizes = glam::DVec3::new(g.y * e.z + g.z * e.y, g.z * e.x + g.x * e.z, g.x * e.y + g.y * e.x);
-    let cross_off = sizes * (6.0 * ROUNDING);
-    let aside = cross.length_squared();
-    let square = a * r * r - aside;
-    let off =
-        2.0 * cross.abs().dot(cross_off) + cross_off.length_squared() + 8.0 * ROUNDING * (a * r * r + aside);
-    // Where squares leave the range of normal numbers nothing is certain; the largest here has some 2^512 at most.
-    if !(1e-140..1e140).contains(&a) || !(1e-140..1e140).contains(&(a * r * r)) || !off.is_finite() {
-        return Estimate::Open;
-    }
-    if square < -off {
-        return Estimate::Certain(None);
-    }
-    if square <= 4.0 * off {
-        return Estimate::Open;
-    }
-    let root = square.sqrt();
-    // The root's slope is at most that at the lower end, three quarters of the square.
-    let root_off = off / root + 2.0 * ROUNDING * root;
-    let (t_min, t_max) = (f64::from(ray.t_min), f64::from(t_max));
-    for signed in [-root, root] {
-        let t = (b + signed) / a;
-        let t_off = 1.5 * (b_off + root_off) / a + 8.0 * ROUNDING * (b.abs() + root) / a;
-        let (low, high) = (t - t_off, t + t_off);
-        if high < t_min || low > t_max {
-            continue;
-        }
-        if low <= t_min || t_max <= high || low as f32 != high as f32 {
-            return Estimate::Open;
-        }
-        return Estimate::Certain(Some(t as f32 + 0.0));
-    }
-    Estimate::Certain(None)
+/// Whether a hit comes before `t_max`, which may be another hit's t, is decided by what is told of both: so the nearest of many does
+/// not depend on the order in which they are tested.
+pub fn nearest(sphere: &Sphere, ray: &Ray, t_max: f32) -> Option<f32> {
+    let told = estimate(sphere.center.to_array(), sphere.radius, ray);
+    let t = if told.open { undecided(sphere, ray)? } else { told.hit.then_some(told.t)? };
+    (t <= t_max).then_some(t)
+}
+
+/// The same of what bounds of errors can't decide, within the ray's own range.
+#[cold]
+fn undecided(sphere: &Sphere, ray: &Ray) -> Option<f32> {
+    Integers::of(sphere, ray)?.crossings(ray).into_iter().flatten().next()
+}
+
+/// Where the ray enters and leaves, as far as that is in its range: each rounded correctly.
+pub fn crossings(sphere: &Sphere, ray: &Ray) -> [Option<f32>; 2] {
+    Integers::of(sphere, ray).map_or([None; 2], |integers| integers.crossings(ray))
 }
 
 /// The equation a·t² − 2·b·t + c = 0 in integers, for t in units of 2^exponent.
@@ -113,10 +75,11 @@ impl Integers {
         (square >= BigInt::ZERO).then_some(Self { a, b, square, exponent: place - direction })
     }
 
-    fn nearest(&self, t_min: f32, t_max: f32) -> Option<f32> {
-        [false, true].into_iter().find_map(|far| {
-            let after = self.against(far, t_min, 0) != Ordering::Less;
-            let before = t_max == f32::INFINITY || self.against(far, t_max, 0) != Ordering::Greater;
+    /// Both roots, as far as they are in the ray's range.
+    fn crossings(&self, ray: &Ray) -> [Option<f32>; 2] {
+        [false, true].map(|far| {
+            let after = ray.t_min == f32::NEG_INFINITY || self.against(far, ray.t_min, 0) != Ordering::Less;
+            let before = ray.t_max == f32::INFINITY || self.against(far, ray.t_max, 0) != Ordering::Greater;
             (after && before).then(|| self.rounded(far))
         })
     }

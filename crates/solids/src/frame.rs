@@ -30,16 +30,6 @@ impl Frame {
         Self { pad, center: bounds.center(), near }
     }
 
-    /// The same where no ray is near, so that all is computed in double precision.
-    pub fn doubled(self) -> Self {
-        Self { near: -1.0, ..self }
-    }
-
-    /// Whether no ray is near.
-    pub fn is_double(&self) -> bool {
-        self.near < 0.0
-    }
-
     /// The rays whose hits `f32` gives within half the padding: see [`accel::tolerance::NEAR`].
     #[inline(always)]
     pub fn near<S: Simd>(&self, s: S, rays: &Packet<S>) -> S::M {

@@ -10,7 +10,7 @@ mod cone;
 mod crossing;
 mod csg;
 mod disc;
-mod exact;
+pub mod exact;
 mod facets;
 mod frame;
 mod group;

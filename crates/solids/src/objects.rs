@@ -17,25 +17,39 @@ use lanes::packet::Packet;
 pub struct Solids<'s> {
     solids: &'s [Solid],
     pub(crate) frame: Frame,
-    exact: bool,
+    precision: Precision,
+}
+
+/// What tests are computed in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Precision {
+    /// `f32` where there are rows and a ray is near, else `f64`.
+    Single,
+    /// `f64`.
+    Double,
+    /// As many digits as it takes for spheres, `f64` for others.
+    Exact,
 }
 
 impl<'s> Solids<'s> {
     /// The objects of a scene of solids, which are valid.
     pub fn new(solids: &'s [Solid]) -> Self {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, solid| all.union(solid.bounds()));
-        Self { solids, frame: Frame::of(&bounds), exact: false }
+        Self { solids, frame: Frame::of(&bounds), precision: Precision::Single }
     }
 
     /// The same with every test in double precision.
     pub fn in_double(solids: &'s [Solid]) -> Self {
-        let plain = Self::new(solids);
-        Self { frame: plain.frame.doubled(), ..plain }
+        Self { precision: Precision::Double, ..Self::new(solids) }
     }
 
     /// The same with the true answers for spheres, rounded once: whether a ray hits, and where.
     pub fn exact(solids: &'s [Solid]) -> Self {
-        Self { exact: true, ..Self::in_double(solids) }
+        Self { precision: Precision::Exact, ..Self::new(solids) }
+    }
+
+    pub(crate) fn precision(&self) -> Precision {
+        self.precision
     }
 
     /// Appends every crossing of an object in the ray's range that satisfies the hit-in-padded-bounds invariant, in order.
@@ -44,7 +58,13 @@ impl<'s> Solids<'s> {
     /// If there is no such object.
     pub fn crossings(&self, id: u32, ray: &Ray, out: &mut Vec<Crossing>) {
         let first = out.len();
-        self.solids[id as usize].crossings(ray, out);
+        match &self.solids[id as usize] {
+            Solid::Sphere(sphere) if self.precision == Precision::Exact => {
+                let found = exact::crossings(sphere, ray).into_iter().zip([true, false]);
+                out.extend(found.filter_map(|(t, enters)| Some(Crossing::at(f64::from(t?), enters))));
+            }
+            solid => solid.crossings(ray, out),
+        }
         let mut at = 0;
         out.retain(|crossing| {
             at += 1;
@@ -59,7 +79,12 @@ impl<'s> Solids<'s> {
 
     /// An object's numbers, if it is of a packed kind.
     pub(crate) fn numbers<K: Packing>(&self, id: u32) -> Option<[f32; MOST_ROWS]> {
-        if self.frame.is_double() { None } else { K::numbers(&self.solids[id as usize]) }
+        let packed = match self.precision {
+            Precision::Single => true,
+            Precision::Double => false,
+            Precision::Exact => K::HAS_EXACT,
+        };
+        if packed { K::numbers(&self.solids[id as usize]) } else { None }
     }
 
     /// An object of kind `K` by the test of rows.
@@ -83,14 +108,17 @@ impl Objects for Solids<'_> {
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         let solid = &self.solids[id as usize];
         let packed = matches!(solid, Solid::Sphere(_) | Solid::Cone(_));
-        if packed && self.frame.near(Scalar, &Packet::splat(Scalar, ray)) {
+        if packed
+            && self.precision == Precision::Single
+            && self.frame.near(Scalar, &Packet::splat(Scalar, ray))
+        {
             return match solid {
                 Solid::Sphere(_) => self.single::<Spheres>(id, ray, t_max),
                 _ => self.single::<Cones>(id, ray, t_max),
             };
         }
         let hit = match solid {
-            Solid::Sphere(sphere) if self.exact => {
+            Solid::Sphere(sphere) if self.precision == Precision::Exact => {
                 Surface { t: exact::nearest(sphere, ray, t_max)?, u: 0.0, v: 0.0 }
             }
             _ => solid.nearest(ray, t_max)?,

@@ -67,7 +67,7 @@ fn all_forms_and_instruction_sets_give_the_same_bits() {
         let mut rays = rays(43, 320);
         rays[5].direction *= 1e-20;
         rays[6].direction *= 1e20;
-        for objects in [Solids::new(solids), Solids::in_double(solids)] {
+        for objects in [Solids::new(solids), Solids::in_double(solids), Solids::exact(solids)] {
             for level in Level::here() {
                 let hits = level.run(Both(&objects, &order, &rays));
                 assert!(hits > 50, "{kinds:?} {level:?}: {hits}");

@@ -70,6 +70,9 @@ pub trait Packing: 'static {
     /// How many numbers an object has.
     const ROWS: usize;
 
+    /// Whether the rows serve the exact test as well.
+    const HAS_EXACT: bool = false;
+
     /// The numbers of a solid, if it is of this kind.
     fn numbers(solid: &Solid) -> Option<[f32; MOST_ROWS]>;
 

@@ -1,0 +1,165 @@
+//! Spheres in blocks, tested exactly: single precision rules out what is missed for certain, sixteen at a time.
+
+use super::{estimate, nearest, undecided};
+use crate::blocks::{ManyRays, OneRay, SolidBlocks};
+use crate::group::Group;
+use crate::rows::{Spheres, load, splat};
+use accel::solid::Sphere;
+use accel::{Nearest, Vec3};
+use lanes::packet::{Lanes, NearestPacket, RayRows};
+use lanes::{ROW, Row, Simd};
+
+/// The sphere in a lane.
+#[inline(always)]
+fn sphere(rows: &[Row], lane: usize) -> Sphere {
+    Sphere { center: Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]), radius: rows[3].0[lane] }
+}
+
+/// What [`estimate`] tells of the rays of all lanes.
+struct All {
+    t: [f32; ROW],
+    hit: [u32; ROW],
+    open: [u32; ROW],
+}
+
+impl All {
+    #[inline(always)]
+    fn of<S: Simd>(sphere: &Sphere, rays: &RayRows) -> Self {
+        let center = sphere.center.to_array();
+        let mut all = Self { t: [0.0; ROW], hit: [0; ROW], open: [0; ROW] };
+        for lane in 0..S::LANES {
+            let told = estimate(center, sphere.radius, &rays.ray(lane));
+            (all.t[lane], all.hit[lane], all.open[lane]) =
+                (told.t, u32::from(told.hit), u32::from(told.open));
+        }
+        all
+    }
+}
+
+/// A bit for each lane that is not 0.
+#[inline(always)]
+fn bits(lanes: &[u32; ROW]) -> u32 {
+    lanes.iter().enumerate().fold(0, |bits, (lane, value)| bits | value << lane)
+}
+
+impl SolidBlocks<'_> {
+    /// The wanted spheres of a row against one near ray.
+    #[inline(always)]
+    pub(crate) fn exact_group<S: Simd>(
+        &self,
+        s: S,
+        (first, group): (usize, Group<'_>),
+        mask: u32,
+        ray: &OneRay,
+        best: &mut Nearest,
+    ) {
+        let prepared = ray.prepared.splat(s);
+        let mut lane = 0;
+        while lane < ROW {
+            let wanted = mask >> lane & (u32::MAX >> (32 - S::LANES));
+            if wanted != 0 {
+                let values = load::<Spheres, S>(s, group.rows, lane);
+                let maybe = Spheres::may_hit(s, &prepared, &values, s.splat(best.t));
+                let mut maybe = s.bits(maybe) & wanted;
+                while maybe != 0 {
+                    let at = lane + maybe.trailing_zeros() as usize;
+                    maybe &= maybe - 1;
+                    let Some(t) = nearest(&sphere(group.rows, at), &ray.ray, best.t) else { continue };
+                    let object = self.ids.get(first + at);
+                    let comes = t < best.t || object < best.object;
+                    if comes && self.solids.holds(object, &ray.ray, t) {
+                        *best = Nearest { t, object, u: 0.0, v: 0.0 };
+                    }
+                }
+            }
+            lane += S::LANES;
+        }
+    }
+
+    /// The sphere in a slot against the near ones of `LANES` rays.
+    #[inline(always)]
+    pub(crate) fn exact_packed<S: Simd>(
+        &self,
+        s: S,
+        slot: usize,
+        group: Group<'_>,
+        rays: &ManyRays<S>,
+        best: &mut NearestPacket<S>,
+    ) {
+        let values = splat::<Spheres, S>(s, group.rows, slot % ROW);
+        let maybe = s.and(Spheres::may_hit(s, &rays.prepared, &values, best.t), rays.near);
+        let maybe = s.bits(maybe);
+        if maybe == 0 {
+            return;
+        }
+        let sphere = sphere(group.rows, slot % ROW);
+        let rows = RayRows::of(s, &rays.rays);
+        let mut all = All::of::<S>(&sphere, &rows);
+        let mut hits = bits(&all.hit) & maybe;
+        let mut open = bits(&all.open) & maybe;
+        while open != 0 {
+            let lane = open.trailing_zeros() as usize;
+            open &= open - 1;
+            if let Some(t) = undecided(&sphere, &rows.ray(lane)) {
+                all.t[lane] = t;
+                hits |= 1 << lane;
+            }
+        }
+        let t = s.load(&all.t);
+        hits &= s.bits(s.le(t, best.t));
+        let object = self.ids.get(slot);
+        let mut unsure = hits & !s.bits(Spheres::is_plain(s, &rays.prepared, &values, t));
+        while unsure != 0 {
+            let lane = unsure.trailing_zeros() as usize;
+            unsure &= unsure - 1;
+            if !self.solids.holds(object, &rows.ray(lane), all.t[lane]) {
+                hits &= !(1 << lane);
+            }
+        }
+        let zero = s.splat(0.0);
+        best.offer(s, object, &Lanes { hit: s.mask(hits), t, u: zero, v: zero });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use accel::Ray;
+    use accel::testing::spheres_and_rays;
+
+    /// Rays about a sphere that single precision rules out are missed for certain.
+    #[test]
+    fn what_is_ruled_out_is_missed() {
+        use crate::rows::{MOST_ROWS, Prepared};
+        use lanes::Scalar;
+        use lanes::packet::Packet;
+        let (mut out, mut hit) = (0, 0);
+        for (sphere, ray) in spheres_and_rays(6000) {
+            let size = sphere.radius + ray.origin.distance(sphere.center);
+            if !(1e-8..1e8).contains(&size) || size > 1e4 * sphere.radius {
+                continue;
+            }
+            let mut values = [0.0; MOST_ROWS];
+            values[..3].copy_from_slice(&sphere.center.to_array());
+            values[3] = sphere.radius;
+            let prepared = Prepared::of(Scalar, &Packet::splat(Scalar, &ray), 0.0);
+            let t = nearest(&sphere, &ray, ray.t_max);
+            let limit = t.unwrap_or(ray.t_max);
+            let maybe = Spheres::may_hit(Scalar, &prepared, &values, limit);
+            assert!(maybe || t.is_none(), "{sphere:?} {ray:?}: {t:?}");
+            out += usize::from(!maybe);
+            hit += usize::from(t.is_some());
+        }
+        assert!(out > 500 && hit > 500, "{out} ruled out, {hit} hit");
+    }
+
+    #[test]
+    fn lanes_are_the_rays() {
+        let (sphere, _) = spheres_and_rays(3).nth(2).unwrap();
+        let rays = spheres_and_rays(ROW as u32).map(|(_, ray)| ray).collect::<Vec<Ray>>();
+        let rows = RayRows::of(lanes::Scalar, &lanes::packet::Packet::splat(lanes::Scalar, &rays[3]));
+        let all = All::of::<lanes::Scalar>(&sphere, &rows);
+        let told = estimate(sphere.center.to_array(), sphere.radius, &rays[3]);
+        assert_eq!((all.hit[0], all.open[0]), (u32::from(told.hit), u32::from(told.open)));
+    }
+}
