@@ -3,7 +3,7 @@
 use crate::frame::Frame;
 use crate::group::{Group, Kind};
 use crate::objects::{Precision, Solids};
-use crate::rows::{Cones, Prepared, Spheres};
+use crate::rows::{Cones, Packing, Prepared, Spheres, Triangles};
 use accel::{Nearest, Objects, Ray};
 use lanes::packet::{Lanes, NearestPacket, Packet};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd};
@@ -15,6 +15,7 @@ pub struct SolidBlocks<'s> {
     pub(crate) ids: Ids,
     spheres: Kind<Spheres>,
     cones: Kind<Cones>,
+    triangles: Kind<Triangles>,
 }
 
 /// A ray prepared for solids.
@@ -37,7 +38,8 @@ impl<'s> SolidBlocks<'s> {
     /// Slot i holds object `order[i]`.
     pub fn new(solids: Solids<'s>, order: &[u32]) -> Self {
         let (spheres, cones) = (Kind::new(&solids, order), Kind::new(&solids, order));
-        Self { solids, ids: Ids::new(order), spheres, cones }
+        let triangles = Kind::new(&solids, order);
+        Self { solids, ids: Ids::new(order), spheres, cones, triangles }
     }
 
     fn frame(&self) -> &Frame {
@@ -59,8 +61,25 @@ impl<'s> SolidBlocks<'s> {
         }
     }
 
+    /// Tests the wanted objects of a kind in a row, and tells which of the row are of this kind.
     #[inline(always)]
-    fn group<K: crate::rows::Packing, S: Simd>(
+    fn row<K: Packing, S: Simd>(
+        &self,
+        s: S,
+        kind: &Kind<K>,
+        (number, wanted): (usize, u32),
+        ray: &OneRay,
+        best: &mut Nearest,
+    ) -> u32 {
+        let group = kind.group(number);
+        if wanted & group.mask != 0 {
+            self.group::<K, S>(s, (number * ROW, group), wanted & group.mask, ray, best);
+        }
+        group.mask
+    }
+
+    #[inline(always)]
+    fn group<K: Packing, S: Simd>(
         &self,
         s: S,
         (first, group): (usize, Group<'_>),
@@ -78,15 +97,17 @@ impl<'s> SolidBlocks<'s> {
                 let mut hits = s.bits(found.hit) & wanted;
                 if hits != 0 {
                     let plain = s.bits(found.plain);
-                    let mut t = [0.0; ROW];
+                    let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
                     s.store(found.t, &mut t);
+                    s.store(found.u, &mut u);
+                    s.store(found.v, &mut v);
                     while hits != 0 {
                         let at = hits.trailing_zeros() as usize;
                         hits &= hits - 1;
                         let object = self.ids.get(first + lane + at);
                         let comes = t[at] < best.t || (t[at] == best.t && object < best.object);
                         if comes && (plain >> at & 1 != 0 || self.solids.holds(object, &ray.ray, t[at])) {
-                            *best = Nearest { t: t[at], object, u: 0.0, v: 0.0 };
+                            *best = Nearest { t: t[at], object, u: u[at], v: v[at] };
                         }
                     }
                 }
@@ -97,7 +118,7 @@ impl<'s> SolidBlocks<'s> {
 
     /// One packed object against the near ones of `LANES` rays.
     #[inline(always)]
-    fn packed<K: crate::rows::Packing, S: Simd>(
+    fn packed<K: Packing, S: Simd>(
         &self,
         s: S,
         slot: usize,
@@ -123,8 +144,7 @@ impl<'s> SolidBlocks<'s> {
             }
             hit = s.mask(kept);
         }
-        let zero = s.splat(0.0);
-        best.offer(s, object, &Lanes { hit, t: found.t, u: zero, v: zero });
+        best.offer(s, object, &Lanes { hit, t: found.t, u: found.u, v: found.v });
     }
 
     /// One object against the rays of some lanes, one by one.
@@ -161,7 +181,7 @@ impl Blocks for SolidBlocks<'_> {
     type Many<S: Simd> = ManyRays<S>;
 
     fn bytes(&self) -> usize {
-        self.ids.bytes() + self.spheres.bytes() + self.cones.bytes()
+        self.ids.bytes() + self.spheres.bytes() + self.cones.bytes() + self.triangles.bytes()
     }
 
     #[inline]
@@ -194,19 +214,17 @@ impl Blocks for SolidBlocks<'_> {
             }
             let (number, first) = (block * (BLOCK / ROW) + row, block * BLOCK + row * ROW);
             if ray.near {
-                let group = self.spheres.group(number);
-                if wanted & group.mask != 0 {
+                let spheres = self.spheres.group(number);
+                if wanted & spheres.mask != 0 {
+                    let wanted = wanted & spheres.mask;
                     match self.is_exact() {
-                        true => self.exact_group(s, (first, group), wanted & group.mask, ray, best),
-                        false => self.group::<Spheres, S>(s, (first, group), wanted & group.mask, ray, best),
+                        true => self.exact_group(s, (first, spheres), wanted, ray, best),
+                        false => self.group::<Spheres, S>(s, (first, spheres), wanted, ray, best),
                     }
                 }
-                wanted &= !group.mask;
-                let group = self.cones.group(number);
-                if wanted & group.mask != 0 {
-                    self.group::<Cones, S>(s, (first, group), wanted & group.mask, ray, best);
-                }
-                wanted &= !group.mask;
+                wanted &= !spheres.mask;
+                wanted &= !self.row(s, &self.cones, (number, wanted), ray, best);
+                wanted &= !self.row(s, &self.triangles, (number, wanted), ray, best);
             }
             self.one_by_one(first, wanted, &ray.ray, best);
         }
@@ -217,7 +235,8 @@ impl Blocks for SolidBlocks<'_> {
         let (number, bit) = (slot / ROW, 1 << (slot % ROW));
         let all = u32::MAX >> (32 - S::LANES);
         let mut left = all;
-        let (spheres, cones) = (self.spheres.group(number), self.cones.group(number));
+        let (spheres, cones, triangles) =
+            (self.spheres.group(number), self.cones.group(number), self.triangles.group(number));
         if spheres.mask & bit != 0 {
             match self.is_exact() {
                 true => self.exact_packed(s, slot, spheres, rays, best),
@@ -227,6 +246,9 @@ impl Blocks for SolidBlocks<'_> {
         } else if cones.mask & bit != 0 {
             self.packed::<Cones, S>(s, slot, cones, rays, best);
             left &= !s.bits(rays.near);
+        } else if triangles.mask & bit != 0 {
+            self.packed::<Triangles, S>(s, slot, triangles, rays, best);
+            left &= !s.bits(rays.near);
         }
         let object = self.ids.get(slot);
         if left != 0 && object != EMPTY_SLOT {
@@ -235,7 +257,7 @@ impl Blocks for SolidBlocks<'_> {
     }
 }
 
-/// Bytes of a slot, about: the number, a sphere's or a cone's rows, and what finds them.
+/// Bytes of a slot, about: the number, a sphere's, a cone's or a triangle's rows, and what finds them.
 const BYTES_OF_SLOT: u128 = 24;
 
 impl<'s> PackedObjects for Solids<'s> {

@@ -4,9 +4,8 @@
 //! `f32` is an integer in units of the least one that a ray and a sphere have.
 
 mod estimate;
-mod packed;
 
-use estimate::estimate;
+pub(crate) use estimate::estimate;
 
 use accel::Ray;
 use accel::solid::Sphere;
@@ -25,7 +24,7 @@ pub fn nearest(sphere: &Sphere, ray: &Ray, t_max: f32) -> Option<f32> {
 
 /// The same of what bounds of errors can't decide, within the ray's own range.
 #[cold]
-fn undecided(sphere: &Sphere, ray: &Ray) -> Option<f32> {
+pub(crate) fn undecided(sphere: &Sphere, ray: &Ray) -> Option<f32> {
     Integers::of(sphere, ray)?.crossings(ray).into_iter().flatten().next()
 }
 

@@ -11,6 +11,7 @@ mod crossing;
 mod csg;
 mod disc;
 pub mod exact;
+mod exact_blocks;
 mod facets;
 mod frame;
 mod group;

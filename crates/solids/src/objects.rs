@@ -2,7 +2,7 @@
 
 use crate::exact;
 use crate::frame::Frame;
-use crate::rows::{Cones, MOST_ROWS, Packing, Spheres, one};
+use crate::rows::{Cones, MOST_ROWS, Packing, Spheres, Triangles, one};
 use crate::{Crossing, Crossings};
 use accel::tolerance::holds;
 use accel::{Aabb, Hit, Objects, Ray, Solid, Surface};
@@ -11,7 +11,7 @@ use lanes::packet::Packet;
 
 /// The solids of a scene, of any kinds.
 ///
-/// Spheres and cones are tested in single precision, where a ray begins near the scene; everything else in double precision,
+/// Spheres, cones and triangles are tested in single precision, where a ray begins near the scene; everything else in double precision,
 /// as [`Crossings`] says.
 #[derive(Clone, Copy, Debug)]
 pub struct Solids<'s> {
@@ -90,8 +90,8 @@ impl<'s> Solids<'s> {
     /// An object of kind `K` by the test of rows.
     fn single<K: Packing>(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         let numbers = K::numbers(&self.solids[id as usize])?;
-        let (t, plain) = one::<K>(&numbers, ray, self.frame.pad, t_max)?;
-        (plain || self.holds(id, ray, t)).then_some(Surface { t, u: 0.0, v: 0.0 })
+        let (surface, plain) = one::<K>(&numbers, ray, self.frame.pad, t_max)?;
+        (plain || self.holds(id, ray, surface.t)).then_some(surface)
     }
 }
 
@@ -107,13 +107,14 @@ impl Objects for Solids<'_> {
     #[inline]
     fn intersect(&self, id: u32, ray: &Ray, t_max: f32) -> Option<Surface> {
         let solid = &self.solids[id as usize];
-        let packed = matches!(solid, Solid::Sphere(_) | Solid::Cone(_));
+        let packed = matches!(solid, Solid::Sphere(_) | Solid::Cone(_) | Solid::Triangle(_));
         if packed
             && self.precision == Precision::Single
             && self.frame.near(Scalar, &Packet::splat(Scalar, ray))
         {
             return match solid {
                 Solid::Sphere(_) => self.single::<Spheres>(id, ray, t_max),
+                Solid::Triangle(_) => self.single::<Triangles>(id, ray, t_max),
                 _ => self.single::<Cones>(id, ray, t_max),
             };
         }

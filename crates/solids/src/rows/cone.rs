@@ -102,6 +102,6 @@ impl Packing for Cones {
             let above = s.le(s.sub(low, ray.half_pad), place);
             plain = s.and(plain, s.and(above, s.le(place, s.add(high, ray.half_pad))));
         }
-        Found { hit: s.and(crossed, within), t, plain }
+        Found { hit: s.and(crossed, within), t, u: zero, v: zero, plain }
     }
 }

@@ -3,11 +3,13 @@
 
 mod cone;
 mod sphere;
+mod triangle;
 
 pub use cone::Cones;
 pub use sphere::Spheres;
+pub use triangle::Triangles;
 
-use accel::{Ray, Solid};
+use accel::{Ray, Solid, Surface};
 use lanes::packet::{Packet, Vec3Lanes};
 use lanes::{Row, Simd};
 
@@ -60,6 +62,10 @@ pub struct Found<S: Simd> {
     pub hit: S::M,
     /// Where. Both zeros are one.
     pub t: S::F,
+    /// First surface coordinates. Both zeros are one.
+    pub u: S::F,
+    /// Second surface coordinates. Both zeros are one.
+    pub v: S::F,
     /// Those whose place, as it is rounded, lies in the object's box padded by half: for near rays they satisfy the
     /// hit-in-padded-bounds invariant.
     pub plain: S::M,
@@ -102,10 +108,15 @@ pub fn splat<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S>
 
 /// One object against one ray.
 #[inline(always)]
-pub fn one<K: Packing>(numbers: &[f32; MOST_ROWS], ray: &Ray, pad: f32, t_max: f32) -> Option<(f32, bool)> {
+pub fn one<K: Packing>(
+    numbers: &[f32; MOST_ROWS],
+    ray: &Ray,
+    pad: f32,
+    t_max: f32,
+) -> Option<(Surface, bool)> {
     let prepared = Prepared::of(lanes::Scalar, &Packet::splat(lanes::Scalar, ray), pad);
     let found = K::test(lanes::Scalar, &prepared, numbers, t_max);
-    found.hit.then_some((found.t, found.plain))
+    found.hit.then_some((Surface { t: found.t, u: found.u, v: found.v }, found.plain))
 }
 
 #[inline(always)]

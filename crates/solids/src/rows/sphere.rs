@@ -35,7 +35,7 @@ impl Packing for Spheres {
         let (enters, leaves) = (s.sub(middle, half), s.add(middle, half));
         let (within, t) = first(s, enters, leaves, ray.t_min, t_max);
         let hit = s.and(s.le(zero, square), within);
-        Found { hit, t, plain: Self::is_plain(s, ray, values, t) }
+        Found { hit, t, u: zero, v: zero, plain: Self::is_plain(s, ray, values, t) }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Spheres in blocks, tested exactly: single precision rules out what is missed for certain, sixteen at a time.
 
-use super::{estimate, nearest, undecided};
 use crate::blocks::{ManyRays, OneRay, SolidBlocks};
+use crate::exact::{estimate, nearest, undecided};
 use crate::group::Group;
 use crate::rows::{Spheres, load, splat};
 use accel::solid::Sphere;
