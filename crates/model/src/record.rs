@@ -96,7 +96,7 @@ impl SceneRows {
 /// Everything that tables, conclusions and charts are made from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Model {
-    /// [`FORMAT`] of the writer.
+    /// The format that the writer knew.
     pub format: u32,
     /// The command that made it.
     pub command: String,

@@ -10,14 +10,14 @@ use lanes::{Row, Simd};
 /// decided when the nearest is known. A certain hit must lie in the triangle and its t, once decided, be correctly
 /// rounded.
 pub trait Deferral: Permuted {
-    /// What can be told of [`Kernel::triangles`], of the lanes `wanted`.
+    /// What can be told of [`super::Kernel::triangles`], of the lanes `wanted`.
     fn bounds_one<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, wanted: u32, t_max: f32) -> Bounds<S>;
 
-    /// [`Kernel::triangles`] for the lanes `undecided` only; the others hold no hit.
+    /// [`super::Kernel::triangles`] for the lanes `undecided` only; the others hold no hit.
     fn decide_one<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, undecided: u32, t_max: f32)
     -> Lanes<S>;
 
-    /// What can be told of [`Kernel::rays`].
+    /// What can be told of [`super::Kernel::rays`].
     fn bounds<S: Simd>(s: S, rays: &Many<Self, S>, packed: Packed<'_>, t_max: S::F) -> Bounds<S>;
 
     /// What can be told of each ray and the triangle in its own lane, of the lanes `wanted`.
@@ -33,7 +33,7 @@ pub trait Deferral: Permuted {
     fn bounds_prepared<S: Simd>(s: S, rays: &Many<Self, S>, prepared: Prepared<'_>, t_max: S::F)
     -> Bounds<S>;
 
-    /// [`Kernel::rays`] for the rays `undecided` only; the others hit nothing.
+    /// [`super::Kernel::rays`] for the rays `undecided` only; the others hit nothing.
     fn decide<S: Simd>(
         s: S,
         rays: &Many<Self, S>,
@@ -42,7 +42,7 @@ pub trait Deferral: Permuted {
         t_max: S::F,
     ) -> Lanes<S>;
 
-    /// Each of the rays `deferred` against the triangle in its own lane of a group that [`Kernel::pack`] wrote, at any t
+    /// Each of the rays `deferred` against the triangle in its own lane of a group that [`super::Kernel::pack`] wrote, at any t
     /// of the ray's range.
     fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], deferred: u32) -> Lanes<S>;
 }
