@@ -32,6 +32,8 @@ pub struct Line {
     pub near: f64,
     /// Where it leaves it; before [`Line::near`] if they don't meet.
     pub far: f64,
+    /// How long the box is in t, where the origin was moved; 0 else.
+    length: f64,
 }
 
 impl Line {
@@ -71,7 +73,16 @@ impl Line {
     fn unmoved(corners: [Vec3; 2], origin: Vec3, direction: Vec3) -> Option<Self> {
         let at = origin.to_array().map(f64::from);
         let (near, far) = range(corners, at, direction);
-        (!is_brief(near, far, BRIEFLY)).then_some(Self { origin: at, moved: 0.0, near, far })
+        (!is_brief(near, far, BRIEFLY)).then_some(Self { origin: at, moved: 0.0, near, far, length: 0.0 })
+    }
+
+    /// What the ends of a range of t, counted from [`Line::moved`] on, are rounded by parts of: [`crate::tolerance::TOUCH`].
+    ///
+    /// After moving, what is near 0 for one box is as far away as a box is long for another in the same place, and
+    /// is rounded accordingly: that much is granted to both.
+    #[inline(always)]
+    pub fn scale(&self, start: f64, end: f64) -> f64 {
+        start.abs().max(end.abs()) + self.length
     }
 
     /// The part in a box of a line whose origin is moved to it.
@@ -82,6 +93,8 @@ impl Line {
         let d = direction.to_array().map(f64::from);
         let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         let (mut at, mut moved) = (origin.to_array().map(f64::from), 0.0);
+        // What the sums are off by, for coordinates far from 0 have no places left for small steps.
+        let mut error = [0.0; 3];
         for _ in 0..STEPS {
             let along = (0..3).map(|a| (center[a] - at[a]) * d[a]).sum::<f64>();
             let step = short(along / square);
@@ -89,10 +102,15 @@ impl Line {
             if step == 0.0 || !step.is_finite() || next == at {
                 break;
             }
+            for a in 0..3 {
+                error[a] += lost(at[a], step * d[a], next[a]);
+            }
             (at, moved) = (next, moved + step);
         }
-        let (near, far) = range(corners, at, direction);
-        Self { origin: at, moved, near, far }
+        let (near, far) = range_beside(corners, at, error, direction);
+        let length = f64::from((max - min).max_element()) / f64::from(direction.abs().max_element());
+        let length = if length.is_finite() { length } else { 0.0 };
+        Self { origin: at, moved, near, far, length }
     }
 }
 
@@ -101,16 +119,28 @@ fn short(value: f64) -> f64 {
     f64::from_bits(value.to_bits() & (u64::MAX << 29))
 }
 
+/// What the rounded sum of two numbers lacks (D. E. Knuth, The Art of Computer Programming, vol. 2, 4.2.2, theorem B).
+fn lost(a: f64, b: f64, sum: f64) -> f64 {
+    let of_b = sum - a;
+    (a - (sum - of_b)) + (b - of_b)
+}
+
 /// Where a line enters and leaves a box, in `f64`. A direction component of ±0 asks whether the origin lies between the
 /// two planes; 0·∞ therefore never arises.
 #[inline(always)]
-pub fn range([min, max]: [Vec3; 2], origin: [f64; 3], direction: Vec3) -> (f64, f64) {
+pub fn range(corners: [Vec3; 2], origin: [f64; 3], direction: Vec3) -> (f64, f64) {
+    range_beside(corners, origin, [0.0; 3], direction)
+}
+
+/// [`range`] for an origin that is the sum of a point and a small `beside`.
+#[inline(always)]
+fn range_beside([min, max]: [Vec3; 2], origin: [f64; 3], beside: [f64; 3], direction: Vec3) -> (f64, f64) {
     let mut near = f64::NEG_INFINITY;
     let mut far = f64::INFINITY;
     for axis in 0..3 {
         let d = f64::from(direction[axis]);
-        let lo = f64::from(min[axis]) - origin[axis];
-        let hi = f64::from(max[axis]) - origin[axis];
+        let lo = f64::from(min[axis]) - origin[axis] - beside[axis];
+        let hi = f64::from(max[axis]) - origin[axis] - beside[axis];
         if d == 0.0 {
             if lo > 0.0 || hi < 0.0 {
                 return (f64::INFINITY, f64::NEG_INFINITY);

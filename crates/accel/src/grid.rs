@@ -111,9 +111,8 @@ impl Grid {
         let (t_min, t_max) = within_reach(f64::from(ray.t_min), f64::from(ray.t_max));
         let t_start = line.near.max(t_min - line.moved);
         let t_end = line.far.min(t_max - line.moved);
-        let touch = TOUCH * t_start.abs().max(t_end.abs());
         // Without end or beginning is only the range of a ray without direction.
-        if t_start > t_end + touch || !(t_start + t_end).is_finite() {
+        if t_start > t_end + TOUCH * line.scale(t_start, t_end) || !(t_start + t_end).is_finite() {
             return None;
         }
         let t_end = t_end.max(t_start);
@@ -389,6 +388,35 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Boxes of objects lie at corners of the grid's, on coordinates that are far from 0 or not, and rays from near and far pass
+    /// through exactly such a corner.
+    #[test]
+    fn a_line_that_touches_the_box_of_an_object_touches_the_grid() {
+        let mut state = 1u64;
+        let mut whole = |most: i32| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) % (2 * most as u64 + 1)) as f32 - most as f32
+        };
+        let mut touched = 0;
+        for i in 0..100_000 {
+            let offset = if i % 2 == 0 { 7_000_000.0 } else { 0.0 };
+            let corner = Vec3::splat(offset) + Vec3::new(whole(8), whole(8), whole(8)) * 0.5;
+            let size = |of: Vec3| (of.abs() + 1.0) * 0.5;
+            let small = size(Vec3::new(whole(6), whole(6), whole(6)));
+            let large = small + size(Vec3::new(whole(6), whole(6), whole(6))) - 0.5;
+            let object = Aabb { min: corner - small, max: corner };
+            let grid = Grid::new(Aabb { min: corner - large, max: corner }, [1; 3]).unwrap();
+            let direction = Vec3::new(whole(7), whole(7), whole(7)) * 0.5;
+            let origin = corner - direction * (whole(9) * 2f32.powi(i % 20));
+            let ray = Ray { origin, direction, t_min: -1e30, t_max: f32::INFINITY };
+            if direction != Vec3::ZERO && object.overlap(origin, direction).is_some() {
+                touched += 1;
+                assert!(grid.clip(&ray).is_some(), "{ray:?} touches {object:?} in {:?}", grid.bounds());
+            }
+        }
+        assert!(touched > 10_000, "{touched}");
     }
 
     #[test]

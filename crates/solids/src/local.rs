@@ -24,7 +24,7 @@ impl Local {
     #[inline(always)]
     pub fn of(bounds: &Aabb, center: DVec3, ray: &Ray) -> Option<Self> {
         let line = Line::through([bounds.min, bounds.max], ray.origin, ray.direction);
-        let Line { origin, moved, near, far } = line;
+        let Line { origin, moved, near, far, .. } = line;
         let origin = DVec3::from_array(origin) - center;
         (near <= far).then_some(Self { origin, direction: ray.direction.as_dvec3(), moved, near, far })
     }

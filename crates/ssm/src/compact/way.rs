@@ -53,14 +53,13 @@ impl Frame {
     #[inline(always)]
     fn clip_line(&self, ray: &Ray, line: &Line) -> Option<ClippedSegment> {
         let direction = ray.direction.to_array().map(f64::from);
-        let Line { origin, moved, near, far } = *line;
+        let Line { origin, moved, near, far, .. } = *line;
         let (t_min, t_max) = within_reach(f64::from(ray.t_min), f64::from(ray.t_max));
         let t_start = near.max(t_min - moved);
         let t_end = far.min(t_max - moved);
-        let touch = TOUCH * t_start.abs().max(t_end.abs());
         // Without end or beginning is only the range of a ray without direction; both would keep the walk from ending.
         let finite = t_start + t_end + direction[0] + direction[1] + direction[2];
-        if t_start > t_end + touch || !finite.is_finite() {
+        if t_start > t_end + TOUCH * line.scale(t_start, t_end) || !finite.is_finite() {
             return None;
         }
         let span = (t_end - t_start).max(0.0);
