@@ -261,6 +261,12 @@ impl<const N: usize> RayRows<N> {
 }
 
 impl Segment {
+    /// Where it lies on its ray.
+    #[inline(always)]
+    pub const fn span(&self) -> Span {
+        self.span
+    }
+
     /// See [`Span::limit`].
     #[inline]
     pub fn limit(&self, t: f32) -> f32 {
@@ -281,6 +287,9 @@ pub struct Span {
 }
 
 impl Span {
+    /// That of no segment.
+    pub const NONE: Self = Self { t_start: 0.0, t_span: 0.0 };
+
     /// An upper bound of the place s up to which objects must be looked at, when a hit at
     /// `t` is known: what begins behind it can't come before that hit.
     #[inline(always)]

@@ -3,7 +3,7 @@
 use super::General;
 use super::beam::{Beam, BeamRays};
 use super::maps::BlockMaps;
-use super::ready::{Ready, rows};
+use super::ready::Ready;
 use super::scratch::{Scratch, Waiting};
 use super::test::{ResolveBeam, TestBeam, Tested};
 use super::traveller::{LIMIT, Traveller};
@@ -11,6 +11,7 @@ use super::tree::Node;
 use super::visit::Visit;
 use accel::grid::Span;
 use accel::{Counters, Nearest, Ray};
+use lanes::packet::rows;
 use lanes::{PackedObjects, ROW, Simd, Task};
 
 impl<O: PackedObjects> General<O> {

@@ -3,9 +3,9 @@
 use super::beam::{Beam, BeamRays};
 use super::scratch::{STREAM, Scratch};
 use super::traveller::{Traveller, WayRows};
-use accel::grid::{Grid, RayRows, Span};
+use accel::grid::{Grid, Span};
 use accel::{Nearest, Ray};
-use lanes::packet::Packet;
+use lanes::packet::rows;
 use lanes::{Lists, ROW, SHARE, Simd, Task};
 
 /// Octants of directions.
@@ -117,27 +117,4 @@ pub(super) struct Ready {
     /// Where the list of its beams begins, and how many there are.
     pub first_beam: u32,
     pub beams: u32,
-}
-
-/// Up to 16 rays coordinate by coordinate; where there are fewer, the first stands in for the others.
-#[inline(always)]
-pub(super) fn rows<S: Simd>(s: S, rays: &[Ray]) -> RayRows<ROW> {
-    let mut chosen = [&rays[0]; ROW];
-    for (chosen, ray) in chosen.iter_mut().zip(rays) {
-        *chosen = ray;
-    }
-    let zero = [0.0; ROW];
-    let mut rows = RayRows { origin: [zero; 3], direction: [zero; 3], t_min: zero, t_max: zero };
-    for at in (0..ROW).step_by(S::LANES) {
-        let mut here = chosen;
-        here[..S::LANES].copy_from_slice(&chosen[at..at + S::LANES]);
-        let packet = Packet::gather(s, &here);
-        for axis in 0..3 {
-            s.store(packet.origin[axis], &mut rows.origin[axis][at..]);
-            s.store(packet.direction[axis], &mut rows.direction[axis][at..]);
-        }
-        s.store(packet.t_min, &mut rows.t_min[at..]);
-        s.store(packet.t_max, &mut rows.t_max[at..]);
-    }
-    rows
 }

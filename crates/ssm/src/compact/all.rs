@@ -36,7 +36,7 @@ impl<O: PackedObjects> Built<O> {
         if self.apart {
             groups.push(0);
         }
-        if let Some(way) = self.field.clip(ray) {
+        if let Some(way) = self.field.clip(ray).lane(0) {
             self.field.walk(&way, 1.0, &mut Gather { cells: &self.cells, groups: &mut groups });
         }
         keep_once(&mut groups, 0);

@@ -2,10 +2,11 @@
 //! walk of a ray through them that steps over empty bricks at once. A cell may be divided again into a
 //! brick of its own.
 
-use super::way::{ClippedSegment, Frame, advance};
+use super::way::{ClippedSegment, Frame, SegmentRows, UnitBox, greater};
 use crate::register::Word;
-use accel::grid::Grid;
+use accel::grid::{Grid, RayRows};
 use accel::{Aabb, Ray};
+use lanes::{ROW, Simd};
 use std::ops::Range;
 
 /// Cells along an edge of a brick.
@@ -125,10 +126,21 @@ impl Field {
         [0, 1, 2].map(|a| brick[a] * EDGE + within[a])
     }
 
+    /// A box in unit coordinates.
+    pub fn unit_box(&self, bounds: &Aabb) -> UnitBox {
+        self.frame.unit_box(bounds)
+    }
+
     /// The part of a ray inside the grid.
     #[inline(always)]
-    pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
+    pub fn clip(&self, ray: &Ray) -> SegmentRows {
         self.frame.clip(ray)
+    }
+
+    /// The parts of several rays inside the grid.
+    #[inline(always)]
+    pub fn clip_rows<S: Simd>(&self, s: S, rays: &RayRows<ROW>) -> SegmentRows {
+        self.frame.clip_rows(s, rays)
     }
 
     /// Visits the occupied cells on a way up to s = `limit`, at most 1, in order.
@@ -144,22 +156,23 @@ impl Field {
             let index = (brick[2] * by + brick[1]) * bx + brick[0];
             let mut bits = self.occupied[index as usize];
             if bits == 0 {
-                let (next, exit) = advance(way, brick, way.planes(brick, edge));
-                enter = exit.max(enter);
+                let mut steps = way.from(brick, edge);
+                enter = greater(steps.advance(), enter);
                 if enter > limit {
                     return;
                 }
-                brick = next;
+                brick = steps.slice;
                 continue;
             }
             let mut node = index;
             let mut parents = [0u32; MOST_LEVELS];
             let mut shift = top;
-            let mut cell = way.cell_within(enter, shift, brick);
+            let mut cells = way.from(way.cell_within(enter, shift, brick), shift);
             'node: loop {
                 visit.step();
+                let cell = cells.slice;
                 let within = cell[0] % EDGE + cell[1] % EDGE * 4 + cell[2] % EDGE * 16;
-                let (next, exit) = advance(way, cell, way.planes(cell, shift));
+                let exit = cells.advance();
                 if bits >> within & 1 != 0 {
                     let number = node as usize * BRICK + within as usize;
                     if shift > 0 && self.is_divided(node, within) {
@@ -167,30 +180,31 @@ impl Field {
                         parents[(shift / SHIFT) as usize] = node;
                         node = visit.brick(number);
                         bits = self.occupied[node as usize];
-                        cell = way.cell_within(enter, shift, cell);
+                        cells = way.from(way.cell_within(enter, shift, cell), shift);
                         continue;
                     }
                     limit = limit.min(visit.cell(number));
                 }
-                enter = exit.max(enter);
+                enter = greater(exit, enter);
                 if enter > limit {
                     return;
                 }
+                let mut next = cells.slice;
                 let mut crossed = (cell[0] ^ next[0]) | (cell[1] ^ next[1]) | (cell[2] ^ next[2]);
-                cell = next;
                 if crossed < EDGE {
                     continue;
                 }
                 while crossed >= EDGE {
-                    cell = cell.map(|c| c >> SHIFT);
+                    next = next.map(|c| c >> SHIFT);
                     if shift == top {
-                        brick = cell;
+                        brick = next;
                         break 'node;
                     }
                     crossed >>= SHIFT;
                     node = parents[(shift / SHIFT) as usize];
                     shift += SHIFT;
                 }
+                cells = way.from(next, shift);
                 bits = self.occupied[node as usize];
             }
         }

@@ -14,13 +14,14 @@ use crate::settings::Settings;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
 use accel::{
-    Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet, Scene,
-    Workload, vec_bytes,
+    Aabb, Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet,
+    Scene, Workload, vec_bytes,
 };
 use field::{BRICK, Field};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 use order::{GROUP, Order};
 use primitives::WithObjects;
+use way::UnitBox;
 
 const ID: &str = "ssm";
 
@@ -122,6 +123,8 @@ struct Built<O: PackedObjects> {
     grid: Grid,
     field: Field,
     cells: Cells,
+    /// The boxes of all groups.
+    boxes: Vec<UnitBox>,
     /// Whether the first group is in no cell and meets every ray.
     apart: bool,
     blocks: O::Blocks,
@@ -141,6 +144,7 @@ struct Laid {
     grid: Grid,
     field: Field,
     cells: Cells,
+    boxes: Vec<UnitBox>,
     slots: Vec<u32>,
     apart: bool,
 }
@@ -159,7 +163,8 @@ impl Laid {
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, others)?;
         let mut field = Field::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
         let copy = copy(slots.len());
-        let limit = Limit::of(ID, settings).less(copy + slots.len() as u128 * 4)?;
+        let bytes_of_boxes = slots.len() / GROUP * size_of::<UnitBox>();
+        let limit = Limit::of(ID, settings).less(copy + (slots.len() * 4 + bytes_of_boxes) as u128)?;
         let bricks = limit.cells(field.bricks() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
         let groups = (slots.len() / GROUP) as u32;
         let bytes = |references: u64| bricks as u128 * BRICK_BYTES + 4 * u128::from(references);
@@ -185,17 +190,27 @@ impl Laid {
         if let Some(gain) = ssm.divide {
             cells = divide::divide(cells, &mut field, objects, &slots, gain, (limit, cancel))?;
         }
-        Ok(Self { grid, field, cells, slots, apart })
+        let boxes = boxes(objects, &field, &slots);
+        Ok(Self { grid, field, cells, boxes, slots, apart })
     }
+}
+
+/// The boxes of the groups of 16 slots.
+fn boxes<B: Bounds>(objects: &B, field: &Field, slots: &[u32]) -> Vec<UnitBox> {
+    let of_group = |slots: &[u32]| {
+        let held = slots.iter().filter(|object| **object != EMPTY_SLOT);
+        field.unit_box(&held.fold(Aabb::EMPTY, |hull, object| hull.union(objects.bounds(*object))))
+    };
+    slots.par_chunks(GROUP).with_min_len(1 << 8).map(of_group).collect()
 }
 
 impl<O: PackedObjects> Built<O> {
     fn new(objects: O, ssm: &Ssm, cancel: Cancel) -> Result<Self, BuildError> {
         let settings = ssm.settings;
-        let Laid { grid, field, cells, slots, apart } =
+        let Laid { grid, field, cells, boxes, slots, apart } =
             Laid::new(&objects.shape(), ssm, O::bytes_of_blocks, cancel)?;
         let blocks = objects.blocks(&slots);
-        let mut built = Self { settings, grid, field, cells, apart, blocks, sort: false, objects };
+        let mut built = Self { settings, grid, field, cells, boxes, apart, blocks, sort: false, objects };
         built.sort = built.footprint().total() > CACHED;
         Ok(built)
     }
@@ -233,6 +248,7 @@ impl<O: PackedObjects> Accel for Built<O> {
             .structure("references", vec_bytes(&self.cells.references))
             .structure("occupied", size_of_val(&*self.field.occupied))
             .structure("divided", size_of_val(&*self.field.divided))
+            .structure("boxes", vec_bytes(&self.boxes))
             .geometry_copy("blocks", self.blocks.bytes())
     }
 

@@ -1,7 +1,10 @@
 //! An order of rays in which neighbours go similar ways, so that they find in the caches what the
 //! one before brought there.
 
+use super::way::greater;
 use accel::{Aabb, Ray};
+use lanes::packet::rows;
+use lanes::{Level, ROW, Simd, Task};
 
 /// Bits of an origin's coordinate.
 const PLACE: u32 = 4;
@@ -10,37 +13,60 @@ const TURN: u32 = 2;
 
 /// The numbers of the rays in an order by the place in the box that their origin is nearest to, then by
 /// direction. Rays from the hits of an image stay with their neighbours.
-pub(super) fn coherent(rays: &[Ray], bounds: &Aabb) -> Vec<u32> {
-    let scale = bounds.extent().recip() * (1 << PLACE) as f32;
-    let key = |ray: &Ray| {
-        let along = ray.direction * (ray.direction.abs().max_element().recip() * (1 << TURN) as f32);
-        let (mut place, mut turn, mut octant) = (0, 0, 0);
-        for a in 0..3 {
-            // Casts saturate: an origin outside counts as on the side it is nearest to.
-            let at = ((ray.origin[a] - bounds.min[a]) * scale[a]) as u32;
-            place |= SPREAD[at.min((1 << PLACE) - 1) as usize] << a;
-            turn |= SPREAD[(along[a].abs() as u32).min((1 << TURN) - 1) as usize] << a;
-            octant |= u32::from(along[a] < 0.0) << a;
-        }
-        (place << 3 | octant) << (3 * TURN) | turn
-    };
-    let mut keyed: Vec<(u32, u32)> = rays.iter().map(key).zip(0..).collect();
+pub(super) fn coherent(simd: Level, rays: &[Ray], bounds: &Aabb) -> Vec<u32> {
+    let mut keyed = vec![(0, 0); rays.len()];
+    simd.run(Keys { rays, bounds, keyed: &mut keyed });
     let mut other = vec![(0, 0); keyed.len()];
     sort_by_digit(&keyed, &mut other, 0);
     sort_by_digit(&other, &mut keyed, DIGIT);
     keyed.into_iter().map(|(_, number)| number).collect()
 }
 
-/// Bit i to bit 3i.
-const SPREAD: [u32; 1 << PLACE] = {
-    let mut spread = [0; 1 << PLACE];
-    let mut i = 0;
-    while i < 1 << PLACE {
-        spread[i] = (i & 1 | (i & 2) << 2 | (i & 4) << 4 | (i & 8) << 6) as u32;
-        i += 1;
+/// Gives each ray a key, and its number.
+struct Keys<'a> {
+    rays: &'a [Ray],
+    bounds: &'a Aabb,
+    keyed: &'a mut [(u32, u32)],
+}
+
+impl Task for Keys<'_> {
+    type Out = ();
+
+    /// In loops over lanes without branches, which compilers turn into vectors.
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) {
+        let Self { rays, bounds, keyed } = self;
+        let scale = bounds.extent().recip() * (1 << PLACE) as f32;
+        for (chunk, (rays, keyed)) in rays.chunks(ROW).zip(keyed.chunks_mut(ROW)).enumerate() {
+            let rows = rows(s, rays);
+            let mut keys = [0u32; ROW];
+            let [dx, dy, dz] = &rows.direction;
+            for lane in 0..ROW {
+                let longest = greater(greater(dx[lane].abs(), dy[lane].abs()), dz[lane].abs());
+                let turns = (1 << TURN) as f32 / longest;
+                let (mut place, mut turn, mut octant) = (0, 0, 0);
+                for a in 0..3 {
+                    // Casts saturate: an origin outside counts as on the side it is nearest to.
+                    let at = ((rows.origin[a][lane] - bounds.min[a]) * scale[a]) as u32;
+                    place |= spread(at.min((1 << PLACE) - 1)) << a;
+                    let along = rows.direction[a][lane] * turns;
+                    turn |= spread((along.abs() as u32).min((1 << TURN) - 1)) << a;
+                    octant |= u32::from(along < 0.0) << a;
+                }
+                keys[lane] = (place << 3 | octant) << (3 * TURN) | turn;
+            }
+            for (lane, keyed) in keyed.iter_mut().enumerate() {
+                *keyed = (keys[lane], (chunk * ROW + lane) as u32);
+            }
+        }
     }
-    spread
-};
+}
+
+/// Bit i of the lowest four to bit 3i.
+#[inline(always)]
+const fn spread(i: u32) -> u32 {
+    i & 1 | (i & 2) << 2 | (i & 4) << 4 | (i & 8) << 6
+}
 
 /// Bits of a key that one pass of sorting looks at; two passes see all.
 const DIGIT: u32 = 11;
@@ -78,7 +104,7 @@ mod tests {
                 Ray::new(Vec3::new(0.51, f32::MAX, -1e-30), Vec3::new(side, 1e-40, 0.0))
             })
             .collect();
-        let order = coherent(&rays, &bounds);
+        let order = coherent(Level::Portable, &rays, &bounds);
         let signs: Vec<bool> = order.iter().map(|i| rays[*i as usize].direction.x < 0.0).collect();
         assert_eq!(signs.windows(2).filter(|pair| pair[0] != pair[1]).count(), 1);
         let mut order = order;

@@ -2,11 +2,12 @@
 
 use super::field::Visit;
 use super::order::GROUP;
-use super::way::ClippedSegment;
+use super::way::{ClippedSegment, UnitBox};
 use super::{Built, Cells, sort};
 use accel::parallel::for_each_chunk;
 use accel::{Count, Counters, Nearest, NoCount, Ray, RaySet};
-use lanes::{BLOCK, Blocks, PackedObjects, Portable, Simd, Task};
+use lanes::packet::rows;
+use lanes::{BLOCK, Blocks, PackedObjects, Portable, ROW, Simd, Task};
 
 /// Rays for which the instruction set is chosen once.
 const BATCH: usize = 512;
@@ -30,9 +31,12 @@ impl Mailbox {
 struct TraversalState<'a, S, B: Blocks, C, const ANY: bool> {
     simd: S,
     cells: &'a Cells,
+    boxes: &'a [UnitBox],
     blocks: &'a B,
     ray: B::One,
     way: ClippedSegment,
+    /// Up to where boxes are looked at.
+    limit: f32,
     met: Mailbox,
     best: Nearest,
     count: &'a mut C,
@@ -60,7 +64,9 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for TraversalState<'_,
         let before = self.best.t;
         for &group in self.cells.list(number) {
             self.count.candidates(1);
-            if self.met.contains_or_insert(group) {
+            let known = self.met.contains_or_insert(group);
+            // Both, for one jump is mispredicted less often than two.
+            if known | !self.way.meets(&self.boxes[group as usize], self.limit) {
                 continue;
             }
             self.test(group);
@@ -68,7 +74,10 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for TraversalState<'_,
                 return f32::NEG_INFINITY;
             }
         }
-        if self.best.t < before { self.way.limit(self.best.t) } else { f32::INFINITY }
+        if self.best.t < before {
+            self.limit = self.limit.min(self.way.limit(self.best.t));
+        }
+        self.limit
     }
 
     #[inline(always)]
@@ -96,30 +105,36 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { built, rays, found, count } = self;
-        let Built { field, cells, blocks, .. } = built;
-        for (ray, found) in rays.iter().zip(found) {
-            let mut state = TraversalState::<_, _, _, ANY> {
-                simd,
-                cells,
-                blocks,
-                ray: blocks.one(ray),
-                way: ClippedSegment::NOWHERE,
-                met: Mailbox([u32::MAX; 16]),
-                best: Nearest::new(ray.t_max),
-                count,
-            };
-            if built.apart {
-                state.test(0);
+        let Built { field, cells, boxes, blocks, .. } = built;
+        for (rays, found) in rays.chunks(ROW).zip(found.chunks_mut(ROW)) {
+            let ways =
+                if let [ray] = rays { field.clip(ray) } else { field.clip_rows(simd, &rows(simd, rays)) };
+            for (lane, (ray, found)) in rays.iter().zip(found).enumerate() {
+                let mut state = TraversalState::<_, _, _, ANY> {
+                    simd,
+                    cells,
+                    boxes,
+                    blocks,
+                    ray: blocks.one(ray),
+                    way: ClippedSegment::NOWHERE,
+                    limit: ClippedSegment::LIMIT,
+                    met: Mailbox([u32::MAX; 16]),
+                    best: Nearest::new(ray.t_max),
+                    count,
+                };
+                if built.apart {
+                    state.test(0);
+                }
+                if !(ANY && state.best.object != Nearest::NONE)
+                    && let Some(way) = ways.lane(lane)
+                {
+                    state.way = way;
+                    state.limit = state.limit.min(way.limit(state.best.t));
+                    field.walk(&way, state.limit.min(1.0), &mut state);
+                }
+                blocks.resolve(&state.ray, &mut state.best);
+                *found = state.best;
             }
-            if !(ANY && state.best.object != Nearest::NONE)
-                && let Some(way) = field.clip(ray)
-            {
-                state.way = way;
-                let limit = way.limit(state.best.t).min(1.0);
-                field.walk(&way, limit, &mut state);
-            }
-            blocks.resolve(&state.ray, &mut state.best);
-            *found = state.best;
         }
     }
 }
@@ -165,7 +180,7 @@ impl<O: PackedObjects> Built<O> {
 
     /// Rays in an order that suits the caches; what they find goes where they stood.
     fn in_order<const ANY: bool, T>(&self, rays: &[Ray], out: &mut [T], of: &impl Fn(&Nearest) -> T) {
-        let order = sort::coherent(rays, self.grid.bounds());
+        let order = sort::coherent(self.settings.simd, rays, self.grid.bounds());
         let mut own = Vec::with_capacity(BATCH);
         let mut found = [Nearest::new(0.0); BATCH];
         for numbers in order.chunks(BATCH) {

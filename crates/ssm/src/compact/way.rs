@@ -1,20 +1,21 @@
-//! The part of a ray inside a grid, in the grid's finest cells: what [`Grid::clip`] gives, with fewer
-//! divisions, and prepared for walking.
+//! The part of a ray inside a grid, in the grid's finest cells, prepared for walking and for boxes.
 
-use accel::far::Line;
-use accel::grid::{Grid, within_reach};
-use accel::tolerance::{INSET, LIMIT_S, LIMIT_T, PARALLEL, TOUCH};
+use accel::grid::{Grid, RayRows, Span};
+use accel::tolerance::{INSET, LIMIT_S, PARALLEL};
 use accel::{Aabb, Ray};
+use lanes::packet::Vec3Lanes;
+use lanes::{ROW, Scalar, Simd};
 
-/// Maps a scene's coordinates to the cells of a grid.
+/// Maps the unit coordinates of a grid to its cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    bounds: Aabb,
-    /// Cells for each unit of length, or 0 for an axis without extent.
-    scale: [f64; 3],
+    lattice: Grid,
+    /// Cells for each unit, or 0 for an axis without extent.
+    scale: [f32; 3],
     /// The place of the lower bounds, in cells.
-    first: [f64; 3],
-    resolution: [u32; 3],
+    first: [f32; 3],
+    /// A way that moves fewer cells than this along an axis counts as parallel to its slices.
+    parallel: [f32; 3],
 }
 
 /// The points `start + s·delta` with s from 0 to 1, in cells, and where they meet the planes
@@ -27,70 +28,157 @@ pub(super) struct ClippedSegment {
     scale: [f32; 3],
     offset: [f32; 3],
     /// 1, or −1 in two's complement.
-    pub step: [u32; 3],
+    step: [u32; 3],
     forward: [u32; 3],
-    t_start: f64,
-    /// One over the span of t, infinite if there is none.
-    inverse_span: f64,
+    /// Where it starts in the grid's unit coordinates.
+    unit_start: [f32; 3],
+    /// One over the way in unit coordinates, finite.
+    unit_inverse: [f32; 3],
+    /// The sides by which it enters boxes.
+    near: [u32; 3],
+    span: Span,
 }
+
+/// A box in a grid's unit coordinates, widened by the grid's margin: three lower bounds, and from [`UPPER`] on three upper
+/// ones.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct UnitBox([f32; 8]);
+
+/// Where upper bounds begin.
+const UPPER: usize = 4;
 
 impl Frame {
     pub fn new(lattice: &Grid) -> Self {
-        let bounds = lattice.bounds();
-        let [low, high] = [bounds.min, bounds.max].map(|v| v.to_array().map(f64::from));
-        let resolution = lattice.resolution();
-        let inner = resolution.map(|n| f64::from(n) * (1.0 - 2.0 * INSET));
-        let of = |a: usize| if high[a] > low[a] { inner[a] / (high[a] - low[a]) } else { 0.0 };
-        let first = |a: usize| f64::from(resolution[a]) * if high[a] > low[a] { INSET } else { 0.5 };
-        Self {
-            bounds: *bounds,
-            scale: [of(0), of(1), of(2)],
-            first: [first(0), first(1), first(2)],
-            resolution,
+        let extent = lattice.bounds().max.as_dvec3() - lattice.bounds().min.as_dvec3();
+        let (mut scale, mut first, mut parallel) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        for (a, n) in lattice.resolution().into_iter().enumerate() {
+            let (n, flat) = (f64::from(n), extent[a] <= 0.0);
+            scale[a] = if flat { 0.0 } else { (n * (1.0 - 2.0 * INSET)) as f32 };
+            first[a] = (n * if flat { 0.5 } else { INSET }) as f32;
+            parallel[a] = (n * PARALLEL) as f32;
         }
+        Self { lattice: *lattice, scale, first, parallel }
     }
 
+    /// A box in unit coordinates.
+    pub fn unit_box(&self, bounds: &Aabb) -> UnitBox {
+        let margin = accel::grid::MARGIN as f32;
+        let unit = |axis: usize, value: f32| self.lattice.unit(axis, f64::from(value)) as f32;
+        let low = [0, 1, 2].map(|axis| unit(axis, bounds.min[axis]) - margin);
+        let high = [0, 1, 2].map(|axis| unit(axis, bounds.max[axis]) + margin);
+        UnitBox([low[0], low[1], low[2], 0.0, high[0], high[1], high[2], 0.0])
+    }
+
+    /// The part of a ray inside the grid and its own range of t, if there is one: that of lane 0.
     #[inline(always)]
-    fn clip_line(&self, ray: &Ray, line: &Line) -> Option<ClippedSegment> {
-        let direction = ray.direction.to_array().map(f64::from);
-        let Line { origin, moved, near, far, .. } = *line;
-        let (t_min, t_max) = within_reach(f64::from(ray.t_min), f64::from(ray.t_max));
-        let t_start = near.max(t_min - moved);
-        let t_end = far.min(t_max - moved);
-        // Without end or beginning is only the range of a ray without direction; both would keep the walk from ending.
-        let finite = t_start + t_end + direction[0] + direction[1] + direction[2];
-        if t_start > t_end + TOUCH * line.scale(t_start, t_end) || !finite.is_finite() {
+    pub fn clip(&self, ray: &Ray) -> SegmentRows {
+        let mut rows = SegmentRows::NONE;
+        if let Some(segment) = self.lattice.clip(ray) {
+            let (start, delta) = (segment.start.to_array(), segment.delta.to_array());
+            self.prepare(Scalar, start, delta, &mut rows, 0);
+            (rows.met[0], rows.spans[0]) = (true, segment.span());
+        }
+        rows
+    }
+
+    /// The same of each of several rays.
+    #[inline(always)]
+    pub fn clip_rows<S: Simd>(&self, s: S, rays: &RayRows<ROW>) -> SegmentRows {
+        let segments = self.lattice.clip_rows(rays);
+        let mut rows = SegmentRows { met: segments.met, ..SegmentRows::NONE };
+        for at in (0..ROW).step_by(S::LANES) {
+            let (mut start, mut delta) = ([s.splat(0.0); 3], [s.splat(0.0); 3]);
+            for axis in 0..3 {
+                start[axis] = s.load(&segments.start[axis][at..]);
+                delta[axis] = s.load(&segments.delta[axis][at..]);
+            }
+            self.prepare(s, start, delta, &mut rows, at);
+        }
+        for (lane, span) in rows.spans.iter_mut().enumerate() {
+            *span = segments.span(lane);
+        }
+        rows
+    }
+
+    /// Writes what follows from start and delta in unit coordinates from lane `at` on.
+    #[inline(always)]
+    fn prepare<S: Simd>(
+        &self,
+        s: S,
+        unit_start: Vec3Lanes<S>,
+        unit_delta: Vec3Lanes<S>,
+        rows: &mut SegmentRows,
+        at: usize,
+    ) {
+        let (zero, one, least) = (s.splat(0.0), s.splat(1.0), s.splat(PARALLEL as f32));
+        for axis in 0..3 {
+            let scale = s.splat(self.scale[axis]);
+            let start = s.add(s.mul(unit_start[axis], scale), s.splat(self.first[axis]));
+            let delta = s.mul(unit_delta[axis], scale);
+            let parallel = s.lt(s.abs(delta), s.splat(self.parallel[axis]));
+            let per_cell = s.div(one, delta);
+            let offset = s.sub(zero, s.mul(start, per_cell));
+            s.store(start, &mut rows.start[axis][at..]);
+            s.store(delta, &mut rows.delta[axis][at..]);
+            s.store(s.select(parallel, zero, per_cell), &mut rows.scale[axis][at..]);
+            s.store(s.select(parallel, s.splat(f32::INFINITY), offset), &mut rows.offset[axis][at..]);
+            let shortest = s.select(s.le(zero, unit_delta[axis]), least, s.sub(zero, least));
+            let long = s.le(least, s.abs(unit_delta[axis]));
+            let inverse = s.div(one, s.select(long, unit_delta[axis], shortest));
+            s.store(unit_start[axis], &mut rows.unit_start[axis][at..]);
+            s.store(inverse, &mut rows.unit_inverse[axis][at..]);
+        }
+    }
+}
+
+/// The segments of several rays, coordinate by coordinate, with the fields of [`ClippedSegment`].
+pub(super) struct SegmentRows {
+    met: [bool; ROW],
+    start: [[f32; ROW]; 3],
+    delta: [[f32; ROW]; 3],
+    scale: [[f32; ROW]; 3],
+    offset: [[f32; ROW]; 3],
+    unit_start: [[f32; ROW]; 3],
+    unit_inverse: [[f32; ROW]; 3],
+    spans: [Span; ROW],
+}
+
+impl SegmentRows {
+    const NONE: Self = {
+        let zero = [[0.0; ROW]; 3];
+        Self {
+            met: [false; ROW],
+            start: zero,
+            delta: zero,
+            scale: zero,
+            offset: zero,
+            unit_start: zero,
+            unit_inverse: zero,
+            spans: [Span::NONE; ROW],
+        }
+    };
+
+    /// That of one ray, if it meets the grid.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Option<ClippedSegment> {
+        if !self.met[lane] {
             return None;
         }
-        let span = (t_end - t_start).max(0.0);
-        let inverse_span = 1.0 / span;
-        let t_begin = moved + t_start;
-        let mut way = ClippedSegment { t_start: t_begin, inverse_span, ..ClippedSegment::NOWHERE };
-        for a in 0..3 {
-            let n = f64::from(self.resolution[a]);
-            let place = |t: f64| {
-                let cell = (origin[a] + t * direction[a] - f64::from(self.bounds.min[a])) * self.scale[a]
-                    + self.first[a];
-                cell.clamp(n * INSET, n * (1.0 - INSET))
-            };
-            let start = place(t_start);
-            let delta = place(t_start + span) - start;
-            (way.start[a], way.delta[a]) = (start as f32, delta as f32);
-            let parallel = delta.abs() < n * PARALLEL;
-            let per_cell = 1.0 / delta;
-            way.scale[a] = if parallel { 0.0 } else { per_cell as f32 };
-            way.offset[a] = if parallel { f32::INFINITY } else { (-start * per_cell) as f32 };
-            way.step[a] = if delta < 0.0 { u32::MAX } else { 1 };
-            way.forward[a] = u32::from(delta >= 0.0);
+        let mut way = ClippedSegment { span: self.spans[lane], ..ClippedSegment::NOWHERE };
+        for axis in 0..3 {
+            way.start[axis] = self.start[axis][lane];
+            way.delta[axis] = self.delta[axis][lane];
+            way.scale[axis] = self.scale[axis][lane];
+            way.offset[axis] = self.offset[axis][lane];
+            way.unit_start[axis] = self.unit_start[axis][lane];
+            way.unit_inverse[axis] = self.unit_inverse[axis][lane];
+            let backward = way.delta[axis] < 0.0;
+            way.step[axis] = if backward { u32::MAX } else { 1 };
+            way.forward[axis] = u32::from(!backward);
+            way.near[axis] = axis as u32 + if backward { UPPER as u32 } else { 0 };
         }
         Some(way)
-    }
-
-    /// The part of a ray inside the grid and its own range of t, or `None` where there is none.
-    #[inline(always)]
-    pub fn clip(&self, ray: &Ray) -> Option<ClippedSegment> {
-        let corners = [self.bounds.min, self.bounds.max];
-        Line::clipped(corners, ray.origin, ray.direction, |line| self.clip_line(ray, line))
     }
 }
 
@@ -103,30 +191,46 @@ impl ClippedSegment {
         offset: [f32::INFINITY; 3],
         step: [1; 3],
         forward: [1; 3],
-        t_start: 0.0,
-        inverse_span: 0.0,
+        unit_start: [0.0; 3],
+        unit_inverse: [0.0; 3],
+        near: [0; 3],
+        span: Span::NONE,
     };
 
-    /// An upper bound of the place s up to which objects must be looked at, when a hit at
-    /// `t` is known: what begins behind it can't come before that hit.
+    /// What [`ClippedSegment::limit`] is for boxes while nothing is hit.
+    pub const LIMIT: f32 = 1.0 + LIMIT_S as f32;
+
+    /// See [`Span::limit`].
     #[inline(always)]
     pub fn limit(&self, t: f32) -> f32 {
-        let t = f64::from(t);
-        let slack = LIMIT_T * t.abs();
-        let s = (t - self.t_start + slack) * self.inverse_span;
-        // A way of no length: all of it.
-        if s.is_finite() { (s as f32) * (1.0 + 4.0 * f32::EPSILON) + LIMIT_S as f32 } else { 1.0 }
+        self.span.limit(t)
     }
 
-    /// Where the way leaves slices of 2^shift cells.
+    /// Whether it meets a box at an s up to `limit`.
     #[inline(always)]
-    pub fn planes(&self, slice: [u32; 3], shift: u32) -> [f32; 3] {
-        let plane = |a: usize| {
+    pub fn meets(&self, UnitBox(sides): &UnitBox, limit: f32) -> bool {
+        let (mut enter, mut exit) = (0.0, limit);
+        for axis in 0..3 {
+            let side = self.near[axis] as usize % 8;
+            let near = (sides[side] - self.unit_start[axis]) * self.unit_inverse[axis];
+            let far = (sides[side ^ UPPER] - self.unit_start[axis]) * self.unit_inverse[axis];
+            enter = greater(near, enter);
+            exit = lesser(far, exit);
+        }
+        enter <= exit
+    }
+
+    /// Steps from there on, in slices of 2^shift cells.
+    #[inline(always)]
+    pub fn from(&self, slice: [u32; 3], shift: u32) -> Steps {
+        let mut steps = Steps { slice, planes: [0.0; 3], between: [0.0; 3], step: self.step };
+        for (a, slice) in slice.into_iter().enumerate() {
             // As signed numbers, which convert in one instruction.
-            let plane = (slice[a].wrapping_add(self.forward[a]) << shift).cast_signed();
-            plane as f32 * self.scale[a] + self.offset[a]
-        };
-        [plane(0), plane(1), plane(2)]
+            let plane = (slice.wrapping_add(self.forward[a]) << shift).cast_signed();
+            steps.planes[a] = plane as f32 * self.scale[a] + self.offset[a];
+            steps.between[a] = (self.scale[a] * (1 << shift) as f32).abs();
+        }
+        steps
     }
 
     /// The cell at s.
@@ -145,11 +249,98 @@ impl ClippedSegment {
     }
 }
 
-/// The slices beyond the planes met first, and where those are met. Planes met together are passed
-/// together: what lies in the cells between is registered on both sides, being within the grid's margin.
+/// A way from slice to slice, of one thickness. Each step adds its rounding: no more than four in a row along an axis.
+#[derive(Clone, Copy)]
+pub(super) struct Steps {
+    /// Where it is.
+    pub slice: [u32; 3],
+    /// Where it leaves that on each axis.
+    planes: [f32; 3],
+    /// From one plane to the next.
+    between: [f32; 3],
+    step: [u32; 3],
+}
+
+impl Steps {
+    /// Goes to the slices beyond the planes that are met first, and tells where those are met. Planes met together are passed
+    /// together: what lies in the cells between is registered on both sides, being within the grid's margin.
+    #[inline(always)]
+    pub fn advance(&mut self) -> f32 {
+        let planes = self.planes;
+        let exit = lesser(lesser(planes[0], planes[1]), planes[2]);
+        for (a, plane) in planes.into_iter().enumerate() {
+            let passed = plane <= exit;
+            self.slice[a] = self.slice[a].wrapping_add(if passed { self.step[a] } else { 0 });
+            self.planes[a] = plane + if passed { self.between[a] } else { 0.0 };
+        }
+        exit
+    }
+}
+
+// As comparisons, for `f32::min` and `f32::max` treat NaN, of which there is none, at the cost of more instructions.
+
 #[inline(always)]
-pub(super) fn advance(way: &ClippedSegment, slice: [u32; 3], planes: [f32; 3]) -> ([u32; 3], f32) {
-    let exit = planes[0].min(planes[1]).min(planes[2]);
-    let next = |a: usize| slice[a].wrapping_add(if planes[a] <= exit { way.step[a] } else { 0 });
-    ([next(0), next(1), next(2)], exit)
+fn lesser(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+pub(super) fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use accel::Vec3;
+    use lanes::packet::rows;
+    use lanes::{Portable, Task};
+
+    /// The way of each ray, clipped with others and alone.
+    struct Both<'a>(&'a Frame, &'a [Ray]);
+
+    impl Task for Both<'_> {
+        type Out = Vec<[Option<ClippedSegment>; 2]>;
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> Self::Out {
+            let Self(frame, rays) = self;
+            let all = frame.clip_rows(s, &rows(s, rays));
+            let each = rays.iter().enumerate();
+            each.map(|(lane, ray)| [all.lane(lane), frame.clip(ray).lane(0)]).collect()
+        }
+    }
+
+    #[test]
+    fn ways_are_the_same_alone_and_among_others() {
+        let bounds = Aabb { min: Vec3::new(-1.0, 2.0, 0.0), max: Vec3::new(3.0, 5.0, 0.0) };
+        let frame = Frame::new(&Grid::new(bounds, [16, 4, 4]).unwrap());
+        let rays: Vec<Ray> = (0..ROW)
+            .map(|i| {
+                let i = i as f32;
+                Ray::new(
+                    Vec3::new(i * 0.3 - 2.0, 3.0, 1.0 - i * 0.25),
+                    Vec3::new(i - 7.0, 0.0, i * 0.5 - 4.0),
+                )
+            })
+            .collect();
+        let ways = Both(&frame, &rays).run(Portable);
+        assert!(ways.iter().any(|[all, _]| all.is_some()) && ways.iter().any(|[all, _]| all.is_none()));
+        for [all, alone] in ways {
+            assert_eq!(format!("{all:?}"), format!("{alone:?}"));
+        }
+    }
+
+    #[test]
+    fn boxes_are_met_up_to_the_limit() {
+        let bounds = Aabb { min: Vec3::ZERO, max: Vec3::splat(8.0) };
+        let frame = Frame::new(&Grid::new(bounds, [8; 3]).unwrap());
+        let at =
+            |x: f32| frame.unit_box(&Aabb { min: Vec3::new(x, 3.0, 3.0), max: Vec3::new(x + 1.0, 4.0, 4.0) });
+        for (from, direction) in [(-1.0, Vec3::X), (9.0, -Vec3::X), (-1.0, Vec3::new(1.0, 1e-30, -1e-30))] {
+            let way = frame.clip(&Ray::new(Vec3::new(from, 3.5, 4.0), direction)).lane(0).unwrap();
+            assert!(way.meets(&at(4.0), 1.0) && !way.meets(&at(4.0), 0.25));
+            let beside = Aabb { min: Vec3::new(4.0, 4.5, 3.0), max: Vec3::new(5.0, 5.0, 5.0) };
+            assert!(!way.meets(&frame.unit_box(&beside), 1.0));
+        }
+    }
 }
