@@ -5,7 +5,7 @@ use crate::group::{Group, Kind};
 use crate::objects::{Precision, Solids};
 use crate::rows::{Cones, Packing, Prepared, Spheres, Triangles};
 use accel::{Nearest, Objects, Ray};
-use lanes::packet::{Lanes, NearestPacket, Packet};
+use lanes::packet::{Lanes, NearestPacket, Packet, Pairs};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd};
 
 /// Solids in blocks. Each row of 16 slots has a group of rows for each packed kind that is in it.
@@ -13,9 +13,9 @@ use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd};
 pub struct SolidBlocks<'s> {
     pub(crate) solids: Solids<'s>,
     pub(crate) ids: Ids,
-    spheres: Kind<Spheres>,
-    cones: Kind<Cones>,
-    triangles: Kind<Triangles>,
+    pub(crate) spheres: Kind<Spheres>,
+    pub(crate) cones: Kind<Cones>,
+    pub(crate) triangles: Kind<Triangles>,
 }
 
 /// A ray prepared for solids.
@@ -46,7 +46,7 @@ impl<'s> SolidBlocks<'s> {
         &self.solids.frame
     }
 
-    fn is_exact(&self) -> bool {
+    pub(crate) fn is_exact(&self) -> bool {
         self.solids.precision() == Precision::Exact
     }
 
@@ -228,6 +228,17 @@ impl Blocks for SolidBlocks<'_> {
             }
             self.one_by_one(first, wanted, &ray.ray, best);
         }
+    }
+
+    /// Where bytes and tables are looked up in registers.
+    #[inline(always)]
+    fn takes_pairs<S: Simd>() -> bool {
+        S::LANES == ROW
+    }
+
+    #[inline(always)]
+    fn pairs<S: Simd>(&self, s: S, pairs: &Pairs<'_, S>, best: &mut [Nearest; ROW]) {
+        self.test_pairs(s, pairs, best);
     }
 
     #[inline(always)]

@@ -36,6 +36,14 @@ impl All {
     }
 }
 
+/// The least of all lanes.
+#[inline(always)]
+fn least<S: Simd>(s: S, v: S::F) -> f32 {
+    let mut lanes = [f32::INFINITY; ROW];
+    s.store(v, &mut lanes);
+    lanes.into_iter().fold(f32::INFINITY, f32::min)
+}
+
 /// A bit for each lane that is not 0.
 #[inline(always)]
 fn bits(lanes: &[u32; ROW]) -> u32 {
@@ -59,8 +67,16 @@ impl SolidBlocks<'_> {
             let wanted = mask >> lane & (u32::MAX >> (32 - S::LANES));
             if wanted != 0 {
                 let values = load::<Spheres, S>(s, group.rows, lane);
-                let maybe = Spheres::may_hit(s, &prepared, &values, s.splat(best.t));
-                let mut maybe = s.bits(maybe) & wanted;
+                let bounds = Spheres::bounds(s, &prepared, &values, s.splat(best.t));
+                let mut maybe = s.bits(bounds.maybe) & wanted;
+                if maybe == 0 {
+                    lane += S::LANES;
+                    continue;
+                }
+                let infinity = s.splat(f32::INFINITY);
+                let certain = s.and(bounds.certain, s.mask(maybe));
+                let limit = least(s, s.select(certain, bounds.high, infinity));
+                maybe &= s.bits(s.le(bounds.low, s.splat(limit)));
                 while maybe != 0 {
                     let at = lane + maybe.trailing_zeros() as usize;
                     maybe &= maybe - 1;
@@ -87,7 +103,8 @@ impl SolidBlocks<'_> {
         best: &mut NearestPacket<S>,
     ) {
         let values = splat::<Spheres, S>(s, group.rows, slot % ROW);
-        let maybe = s.and(Spheres::may_hit(s, &rays.prepared, &values, best.t), rays.near);
+        let bounds = Spheres::bounds(s, &rays.prepared, &values, best.t);
+        let maybe = s.and(bounds.maybe, rays.near);
         let maybe = s.bits(maybe);
         if maybe == 0 {
             return;
@@ -133,7 +150,7 @@ mod tests {
         use crate::rows::{MOST_ROWS, Prepared};
         use lanes::Scalar;
         use lanes::packet::Packet;
-        let (mut out, mut hit) = (0, 0);
+        let (mut out, mut hit, mut certain) = (0, 0, 0);
         for (sphere, ray) in spheres_and_rays(6000) {
             let size = sphere.radius + ray.origin.distance(sphere.center);
             if !(1e-8..1e8).contains(&size) || size > 1e4 * sphere.radius {
@@ -145,12 +162,16 @@ mod tests {
             let prepared = Prepared::of(Scalar, &Packet::splat(Scalar, &ray), 0.0);
             let t = nearest(&sphere, &ray, ray.t_max);
             let limit = t.unwrap_or(ray.t_max);
-            let maybe = Spheres::may_hit(Scalar, &prepared, &values, limit);
+            let bounds = Spheres::bounds(Scalar, &prepared, &values, limit);
+            let maybe = bounds.maybe;
             assert!(maybe || t.is_none(), "{sphere:?} {ray:?}: {t:?}");
+            let within = |t: f32| bounds.low <= t && (!bounds.certain || t <= bounds.high);
+            assert!(t.is_none_or(within) && (t.is_some() || !bounds.certain || ray.t_max < bounds.high));
+            certain += usize::from(bounds.certain);
             out += usize::from(!maybe);
             hit += usize::from(t.is_some());
         }
-        assert!(out > 500 && hit > 500, "{out} ruled out, {hit} hit");
+        assert!(out > 500 && hit > 500 && certain > 200, "{out} ruled out, {hit} hit, {certain} for certain");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::objects::Solids;
 use crate::rows::{MOST_ROWS, Packing};
 use accel::vec_bytes;
-use lanes::{EMPTY_SLOT, ROW, Row};
+use lanes::{BLOCK, EMPTY_SLOT, ROW, Row};
 use std::marker::PhantomData;
 
 /// Rows of one kind. Where an order keeps kinds apart there is little that is empty in them.
@@ -58,6 +58,20 @@ impl<K: Packing> Kind<K> {
     /// Bytes on the heap.
     pub fn bytes(&self) -> usize {
         vec_bytes(&self.rows) + vec_bytes(&self.places)
+    }
+
+    /// The slots of a block that hold objects of the kind.
+    #[inline(always)]
+    pub fn block(&self, block: usize) -> u64 {
+        let first = block * (BLOCK / ROW);
+        let places = self.places.iter().skip(first).take(BLOCK / ROW);
+        places.enumerate().fold(0, |all, (row, place)| all | u64::from(place.mask) << (row * ROW))
+    }
+
+    /// The numbers of a row of slots, or none.
+    #[inline(always)]
+    pub fn rows_of(&self, row: usize) -> &[Row] {
+        self.group(row).rows
     }
 
     /// What is in a row of slots.

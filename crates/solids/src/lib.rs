@@ -20,6 +20,7 @@ mod interval;
 mod kind;
 mod local;
 mod objects;
+mod pairs;
 mod patch;
 mod polynomial;
 mod quadratic;

@@ -1,9 +1,9 @@
 //! Blocks against one by one.
 
-use crate::{Crossings, Solids};
+use crate::{Crossings, SolidBlocks, Solids};
 use accel::testing::{KINDS, rays, solids};
 use accel::{Geometry, Nearest, Objects, Ray};
-use lanes::packet::{NearestPacket, Packet};
+use lanes::packet::{NearestPacket, Packet, Pairs};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, Level, PackedObjects, ROW, Simd, Task};
 
 /// Where a ray crosses a solid, and whether it enters there.
@@ -37,6 +37,28 @@ impl Task for Both<'_, '_> {
                 }
                 assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{ray:?}");
                 hits += usize::from(found.object != Nearest::NONE);
+            }
+            if <SolidBlocks<'_> as Blocks>::takes_pairs::<S>() {
+                let packet = Packet::load(s, sixteen);
+                let mut found = [Nearest::new(0.0); ROW];
+                for (found, ray) in found.iter_mut().zip(sixteen) {
+                    *found = Nearest::new(ray.t_max);
+                }
+                for block in 0..order.len().div_ceil(BLOCK) {
+                    let slots = (order.len() - block * BLOCK).min(BLOCK);
+                    let held = |slot: &usize| order[block * BLOCK + slot] != EMPTY_SLOT;
+                    let all = (0..slots).filter(held).flat_map(|slot| (0..ROW).map(move |ray| (ray, slot)));
+                    // Not by rays, nor by objects.
+                    let mut all: Vec<(usize, usize)> = all.collect();
+                    all.sort_by_key(|(ray, slot)| (ray * 7 + slot * 13) % 31);
+                    let len = all.len();
+                    all.resize(len.next_multiple_of(ROW), (0, 0));
+                    let rays: Vec<u8> = all.iter().map(|(ray, _)| *ray as u8).collect();
+                    let slots: Vec<u8> = all.iter().map(|(_, slot)| *slot as u8).collect();
+                    let pairs = Pairs { block, packet: &packet, rays: &rays, slots: &slots, len, any: false };
+                    blocks.pairs(s, &pairs, &mut found);
+                }
+                assert_eq!(format!("{found:?}"), format!("{expected:?}"), "in pairs");
             }
             for (first, rays) in sixteen.chunks_exact(S::LANES).enumerate() {
                 let packet = Packet::load(s, rays);

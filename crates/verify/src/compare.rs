@@ -87,6 +87,24 @@ impl<'a> Judged<'a> {
     /// # Errors
     /// The first difference, a build that fails for another reason than memory, a panic.
     pub fn hold(&self, spec: &str) -> Result<u64, Difference> {
+        // Where one image is wanted no ray is asked for alone.
+        self.hold_some(spec, if self.workload.general { ALONE } else { 0 })
+    }
+
+    /// [`Judged::hold`] with every ray alone besides, all of its crossings too.
+    ///
+    /// # Errors
+    /// Those of [`Judged::hold`].
+    pub fn hold_all(&self, spec: &str) -> Result<u64, Difference> {
+        self.hold_some(spec, self.rays.len())
+    }
+
+    /// How many of these hits are none by brute force, or the reverse.
+    pub fn hit_otherwise(&self, hits: &[Option<Hit>]) -> u64 {
+        hits.iter().zip(&self.expected).filter(|(a, b)| a.is_some() != b.is_some()).count() as u64
+    }
+
+    fn hold_some(&self, spec: &str, alone: usize) -> Result<u64, Difference> {
         let wrong = |ray: Option<Ray>, what: String| Difference { structure: spec.into(), ray, what };
         let choice = registry::parse(spec).map_err(|error| wrong(None, error.to_string()))?;
         let built = match guarded_build(&choice, self.scene, &self.workload) {
@@ -108,9 +126,8 @@ impl<'a> Judged<'a> {
                 return Err(wrong(Some(self.rays.ray(i)), what));
             }
         }
-        // Spread over all rays; where one image is wanted no ray is asked for alone.
-        let alone = if self.workload.general { ALONE } else { 0 };
-        for i in (0..self.rays.len()).step_by((self.rays.len() / ALONE).max(1)).take(alone) {
+        // Spread over all rays.
+        for i in (0..self.rays.len()).step_by((self.rays.len() / alone.max(1)).max(1)).take(alone) {
             let (ray, right) = (self.rays.ray(i), &self.expected[i]);
             let (hit, any) = guard("tracing", || (built.closest(&ray), built.occluded(&ray)))
                 .map_err(|panic| wrong(Some(ray), panic.to_string()))?;

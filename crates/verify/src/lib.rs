@@ -3,13 +3,15 @@
 //!
 //! [`cases`] makes scenes, rays and settings from any source of numbers; [`compare`] holds a structure to brute force and,
 //! with the exact kernel, to the oracle. [`marathon`] does that for as long as it is let; [`targets`] does it for bytes,
-//! and the same for every reader; [`groups`] asks named questions of every structure.
+//! and the same for every reader; [`groups`] asks named questions of every structure; [`kinds`] takes every
+//! kind of solid through all of them.
 
 #![forbid(unsafe_code)]
 
 pub mod cases;
 pub mod compare;
 pub mod groups;
+pub mod kinds;
 pub mod marathon;
 mod numbers;
 pub mod targets;

@@ -1,5 +1,6 @@
 //! `rayscale check`: differences from brute force.
 
+mod kinds;
 mod marathon;
 mod verify;
 
@@ -37,6 +38,7 @@ use std::time::Duration;
   rayscale check --oracle
   rayscale check --oracle 20000 --scene extreme-needles --structure minmax:kernel=exact
   rayscale check --leaks 10000000
+  rayscale check --kinds 10000
   rayscale check --verify
   rayscale check --verify --run rays/ --structure ssm
   rayscale check --marathon marathon.json --time 10m")]
@@ -54,6 +56,10 @@ pub struct Check {
     /// and watertight, and by Embree
     #[arg(long, value_name = "RAYS", num_args = 0..=1, default_missing_value = "10000000")]
     leaks: Option<u64>,
+    /// Scenes of each kind of solid, and of all kinds mixed, by every structure on so many rays a kind, 1 million otherwise: nearest
+    /// hits, occlusion and all crossings, images and lists
+    #[arg(long, value_name = "RAYS", num_args = 0..=1, default_missing_value = "1000000")]
+    kinds: Option<u64>,
     /// A tree of named questions, from closed meshes to cancelled builds, each asked of every structure
     #[arg(long)]
     verify: bool,
@@ -87,6 +93,9 @@ impl Verb for Check {
     fn run(&self, console: &Console) -> Result<Outcome, Error> {
         if self.verify {
             return verify::verify(console, &self.run, &self.selection.structures);
+        }
+        if let Some(rays) = self.kinds {
+            return kinds::kinds(console, rays, &self.selection);
         }
         if let Some(record) = &self.marathon {
             let goal = ::verify::marathon::Goal { rays: self.until, time: self.time };

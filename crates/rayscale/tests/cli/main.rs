@@ -1,6 +1,7 @@
 //! The command line as a user meets it.
 
 mod bad_input;
+mod bad_scenes;
 mod browser;
 mod common;
 mod diff;

@@ -40,6 +40,21 @@ impl<F: Copy> Prepared<F> {
     }
 }
 
+impl<F: Copy> Prepared<F> {
+    /// The rays in the lanes whose numbers `at` holds.
+    #[inline(always)]
+    pub fn permuted<S: Simd<F = F>>(&self, s: S, at: S::U) -> Self {
+        let ([x, y, z], [u, v, w]) = (self.origin, self.direction);
+        Self {
+            origin: [s.permute(x, at), s.permute(y, at), s.permute(z, at)],
+            direction: [s.permute(u, at), s.permute(v, at), s.permute(w, at)],
+            inverse: s.permute(self.inverse, at),
+            t_min: s.permute(self.t_min, at),
+            half_pad: self.half_pad,
+        }
+    }
+}
+
 impl Prepared<f32> {
     /// In all lanes.
     #[inline(always)]

@@ -46,10 +46,23 @@ const ASIDE: f32 = 1.0 / (1 << 19) as f32;
 /// By how much bounds are widened for their own roundings.
 const WIDER: f32 = 1.0 + 1.0 / (1 << 18) as f32;
 
+/// What single precision can tell for certain.
+#[derive(Clone, Copy)]
+pub struct Bounds<S: Simd> {
+    /// Which lanes may hit.
+    pub maybe: S::M,
+    /// Which of them certainly enter within the ray's own range.
+    pub certain: S::M,
+    /// What hits does so at this t or above.
+    pub low: S::F,
+    /// What is certain does so at this t or below.
+    pub high: S::F,
+}
+
 impl Spheres {
-    /// The lanes that may hit at t in `[ray.t_min, t_max]`, by bounds of the errors of near rays.
+    /// The lanes that may hit at t in `[ray.t_min, t_max]`, and where, by bounds of the errors of near rays.
     #[inline(always)]
-    pub fn may_hit<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, t_max: S::F) -> S::M {
+    pub fn bounds<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, t_max: S::F) -> Bounds<S> {
         let [x, y, z, radius, ..] = *values;
         let zero = s.splat(0.0);
         let from = sub3(s, ray.origin, [x, y, z]);
@@ -62,12 +75,19 @@ impl Spheres {
         let (square, most) = (dot(s, aside, aside), s.mul(limit, limit));
         // Half the chord is longer by less than `off`, and the middle is off by less than that.
         let more = s.mul(s.mul(limit, off), s.splat(8.0));
-        let rest = s.add(s.select(s.le(square, most), s.sub(most, square), zero), more);
-        let half = s.sqrt(s.mul(rest, ray.inverse));
-        let reach = s.mul(s.add(half, s.mul(s.abs(middle), s.splat(ASIDE))), s.splat(WIDER));
-        let low = s.le(s.sub(middle, reach), t_max);
-        let high = s.le(ray.t_min, s.add(middle, reach));
-        s.and(s.le(square, most), s.and(low, high))
+        let over = s.sub(most, square);
+        let half = s.sqrt(s.mul(s.add(s.select(s.lt(zero, over), over, zero), more), ray.inverse));
+        let slack = s.mul(s.abs(middle), s.splat(ASIDE));
+        let reach = s.mul(s.add(half, slack), s.splat(WIDER));
+        let (low, leaves) = (s.sub(middle, reach), s.add(middle, reach));
+        let in_range = s.and(s.le(low, t_max), s.le(ray.t_min, leaves));
+        // The chord is at least as long as what is left when twice as much is taken off, and all that was added before.
+        let added = s.mul(most, s.splat(4.0 * (WIDER - 1.0)));
+        let under = s.sub(over, s.add(s.mul(more, s.splat(2.0)), added));
+        let least = s.sqrt(s.mul(s.select(s.lt(zero, under), under, zero), ray.inverse));
+        let high = s.add(s.sub(middle, s.mul(least, s.splat(1.0 / WIDER))), slack);
+        let certain = s.and(s.lt(zero, under), s.lt(ray.t_min, low));
+        Bounds { maybe: s.and(s.le(square, most), in_range), certain, low, high }
     }
 
     /// Where places at t lie in the objects' boxes padded by half, as they are rounded.

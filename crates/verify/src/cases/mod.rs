@@ -4,12 +4,14 @@ mod image;
 mod rays;
 mod reach;
 mod scene;
+mod solids;
 mod structure;
 
 pub use image::image;
 pub use rays::rays;
 pub use reach::{Bounds, Reach, WIDE};
 pub use scene::{SHAPES, Shape, scene, scene_of};
+pub use solids::{KINDS, solids};
 pub use structure::{structure, structure_with};
 
 use crate::Numbers;

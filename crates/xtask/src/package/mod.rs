@@ -13,6 +13,9 @@ const TRACE: &str = include_str!("trace.rs.txt");
 /// One that hands over meshes that can't be traced.
 const ERRORS: &str = include_str!("errors.rs.txt");
 
+/// One with objects of a kind of its own.
+const KIND: &str = include_str!("kind.rs.txt");
+
 /// What [`TRACE`] depends on in the end: it names the last only.
 const NEEDED: [&str; 5] =
     ["rayscale-accel", "rayscale-lanes", "rayscale-solids", "rayscale-primitives", "bmssm"];
@@ -42,6 +45,7 @@ pub fn run(places: &Places) -> Result<String, String> {
     write(&outside.join("Cargo.toml"), &manifest(&patches))?;
     write(&outside.join("src/bin/trace.rs"), TRACE)?;
     write(&outside.join("src/bin/errors.rs"), ERRORS)?;
+    write(&outside.join("src/bin/kind.rs"), KIND)?;
     // The versions that are here already.
     std::fs::copy(places.root.join("Cargo.lock"), outside.join("Cargo.lock"))
         .map_err(|e| format!("cannot copy Cargo.lock: {e}"))?;
@@ -50,7 +54,7 @@ pub fn run(places: &Places) -> Result<String, String> {
         run.current_dir(&outside).env("CARGO_TARGET_DIR", packages.join("outside"));
         output(run.args(["run", "--quiet", "--offline", "--bin", name]))
     };
-    let seen = program("trace")? + &program("errors")?;
+    let seen = program("trace")? + &program("errors")? + &program("kind")?;
     for expected in EXPECTED {
         if !seen.contains(expected) {
             return Err(format!(
@@ -65,10 +69,11 @@ pub fn run(places: &Places) -> Result<String, String> {
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// What the programs must print.
-const EXPECTED: [&str; 3] = [
+const EXPECTED: [&str; 4] = [
     "Some(Hit { t: 1.0, object: 0, ",
     "triangle 0 names position 3, but there are 3 positions",
     "position 1 is [0, NaN, 0], which is not finite",
+    "rays hit capsules, 2000 as brute force does",
 ];
 
 fn manifest(patches: &str) -> String {
