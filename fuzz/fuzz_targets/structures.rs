@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| verify::targets::structures(bytes));
+libfuzzer_sys::fuzz_target!(init: verify::targets::work_alone(), |bytes: &[u8]| verify::targets::structures(bytes));

@@ -45,7 +45,7 @@ pub use export::write_obj;
 pub use folders::{Folders, look_in};
 pub use modifier::{Modifiers, Transform};
 pub use random::Random;
-pub use reader::{Polygons, file_sha256, mesh as load_mesh};
+pub use reader::{Polygons, file_sha256, mesh as load_mesh, mesh_of_bytes};
 pub use resolve::{Loaded, load, load_full};
 pub use spec::{SceneSpec, Source};
 pub use split::{Split, split};

@@ -7,7 +7,7 @@
 //! cargo xtask test              set up, then every check of the workspace
 //! cargo xtask structure         which crates and modules import which, and that there is no cycle
 //! cargo xtask package           the crates meant for others, and a program outside of the checkout that uses them
-//! cargo xtask fuzz              every fuzz target for a while
+//! cargo xtask fuzz              every fuzz target for a while; or how soon planted faults are found
 //! cargo xtask sanitize          the tests of what holds `unsafe` under sanitizers and miri
 //! cargo xtask supply            licences, advisories and sources of all dependencies
 //! cargo xtask interrupt         a measurement killed, or out of disk, at a thousand random moments
@@ -50,7 +50,8 @@ usage: cargo xtask <command>
   test              set up, then formatting, lints, tests, documentation
   structure         list which crates and modules import which; fail on a cycle
   package           package the crates meant for others; build and run a program that has only those
-  fuzz [--time 10m] every fuzz target for so long, a minute otherwise; needs nightly Rust and cargo-fuzz
+  fuzz [--time 10m] every fuzz target for so long, a minute otherwise; needs cargo-fuzz, takes nightly Rust if there is
+  fuzz --planted    how soon the fuzz targets find each of a number of faults put into a copy of the checkout
   sanitize          the tests of what holds unsafe code under address and thread sanitizers and miri
   supply            licences, advisories and sources of all dependencies; needs cargo-deny
   interrupt [N]     a short measurement killed, or out of disk, at a thousand random moments, or N
@@ -92,7 +93,7 @@ fn main() -> ExitCode {
             }
             Err(why) => fail(&why),
         },
-        ("fuzz", _) => fuzz::seconds(&rest).map_or_else(misused, |seconds| fuzz::run(&places, seconds)),
+        ("fuzz", _) => fuzz::Wanted::parse(&rest).map_or_else(misused, |wanted| fuzz::run(&places, wanted)),
         ("sanitize", true) => sanitize::run(&places),
         ("supply", true) => sanitize::supply(&places),
         ("interrupt", _) => {

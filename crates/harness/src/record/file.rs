@@ -68,6 +68,24 @@ pub fn read(path: &Path) -> Result<Record, RecordError> {
     read_kind(path, MEASURED)
 }
 
+/// [`read`] of a text that is in memory already, as if it were the file's.
+///
+/// # Errors
+/// As [`read`].
+pub fn from_text(path: &Path, text: &str) -> Result<Record, RecordError> {
+    parse(path, text, MEASURED)
+}
+
+/// The text that [`write`] makes of a record.
+///
+/// # Errors
+/// What can't be JSON.
+pub fn to_text(record: &Record) -> serde_json::Result<String> {
+    let mut text = serde_json::to_string_pretty(record)?;
+    text.push('\n');
+    Ok(text)
+}
+
 /// Reads a record of any kind.
 ///
 /// # Errors
@@ -75,20 +93,24 @@ pub fn read(path: &Path) -> Result<Record, RecordError> {
 pub fn read_kind<T: DeserializeOwned>(path: &Path, kind: Kind) -> Result<T, RecordError> {
     let text =
         std::fs::read_to_string(path).map_err(|source| RecordError::Io { path: path.to_owned(), source })?;
+    parse(path, &text, kind)
+}
+
+fn parse<T: DeserializeOwned>(path: &Path, text: &str, kind: Kind) -> Result<T, RecordError> {
     let syntax = |source| RecordError::Syntax { path: path.to_owned(), kind, source };
     // The format comes first: a later record may lack what this one needs.
     #[derive(serde::Deserialize)]
     struct Head {
         format: Option<u64>,
     }
-    let Head { format } = serde_json::from_str(&text).map_err(syntax)?;
+    let Head { format } = serde_json::from_str(text).map_err(syntax)?;
     let Some(format) = format.or(kind.unsaid.map(u64::from)) else {
         return Err(syntax(serde::de::Error::missing_field("format")));
     };
     if format > u64::from(kind.format) {
         return Err(RecordError::Format { path: path.to_owned(), kind, found: format });
     }
-    serde_json::from_str(&text).map_err(syntax)
+    serde_json::from_str(text).map_err(syntax)
 }
 
 /// Writes a record whole or not at all.
@@ -96,10 +118,7 @@ pub fn read_kind<T: DeserializeOwned>(path: &Path, kind: Kind) -> Result<T, Reco
 /// # Errors
 /// Errors of the file system.
 pub fn write(path: &Path, record: &Record) -> Result<(), RecordError> {
-    let written: Result<(), io::Error> = write_whole(path, |out| {
-        serde_json::to_writer_pretty(&mut *out, record)?;
-        out.write_all(b"\n")
-    });
+    let written: Result<(), io::Error> = write_whole(path, |out| out.write_all(to_text(record)?.as_bytes()));
     written.map_err(|source| RecordError::Io { path: path.to_owned(), source })
 }
 

@@ -9,7 +9,7 @@ mod run;
 mod suite;
 
 pub use cell::{Bytes, Cell, Check, Errors, Key, Timing, id_of};
-pub use file::{Kind, RecordError, read, read_kind, write};
+pub use file::{Kind, RecordError, from_text, read, read_kind, to_text, write};
 pub use intersector::Intersector;
 pub use memory::{Layout, MemoryRow};
 pub use outcome::Outcome;

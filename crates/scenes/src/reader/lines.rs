@@ -1,7 +1,6 @@
 //! Lines of a text file with their numbers, in bounded memory whatever the file holds.
 
 use crate::error::SceneError;
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
@@ -12,18 +11,18 @@ const LONGEST: u64 = 1 << 20;
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// A reader of lines.
-pub struct Lines {
+pub struct Lines<R> {
     path: PathBuf,
-    input: BufReader<File>,
+    input: BufReader<R>,
     line: Vec<u8>,
     number: u64,
 }
 
-impl Lines {
-    pub fn new(path: &Path, file: File) -> Self {
+impl<R: Read> Lines<R> {
+    pub fn new(path: &Path, input: R) -> Self {
         Self {
             path: path.to_owned(),
-            input: BufReader::with_capacity(1 << 16, file),
+            input: BufReader::with_capacity(1 << 16, input),
             line: Vec::new(),
             number: 0,
         }

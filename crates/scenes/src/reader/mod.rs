@@ -21,7 +21,7 @@ use crate::error::SceneError;
 use lines::Lines;
 use sha2::{Digest, Sha256};
 use std::fs::File;
-use std::io;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// Reads an OBJ or, by the extension `.ply`, an ASCII PLY file.
@@ -33,12 +33,23 @@ use std::path::Path;
 /// Unreadable files, statements that make no sense, coordinates that are not finite, faces
 /// that name missing vertices, no faces; each with the line or vertex.
 pub fn mesh(path: &Path) -> Result<Polygons, SceneError> {
-    let file = File::open(path).map_err(|source| SceneError::Io { path: path.to_owned(), source })?;
-    // What is no file, such as a pipe, has no length.
-    let length = file.metadata().map_or(0, |found| found.len());
+    // What is no file, such as a pipe, has no length, and can be opened once.
+    let length = std::fs::metadata(path).map_or(0, |found| found.len());
     check_memory(path, length, accel::available_memory())?;
+    parse(path, || File::open(path).map_err(|source| SceneError::Io { path: path.to_owned(), source }))
+}
+
+/// [`mesh`] of bytes that are in memory already, as if they were the file's.
+///
+/// # Errors
+/// As [`mesh`].
+pub fn mesh_of_bytes(path: &Path, bytes: &[u8]) -> Result<Polygons, SceneError> {
+    parse(path, || Ok(bytes))
+}
+
+fn parse<R: Read>(path: &Path, open: impl Fn() -> Result<R, SceneError>) -> Result<Polygons, SceneError> {
     let is_ply = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply"));
-    if is_ply { ply::read(Lines::new(path, file)) } else { obj::read(path, file) }
+    if is_ply { ply::read(Lines::new(path, open()?)) } else { obj::read(path, open) }
 }
 
 /// Bytes that reading takes at most for each byte of text: the text, what is parsed, and the mesh.

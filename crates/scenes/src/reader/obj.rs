@@ -6,18 +6,18 @@ use super::polygons::{MOST, Polygons};
 use super::second_look;
 use crate::error::SceneError;
 use accel::{Mesh, Vec3};
-use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// Reads the mesh. `tobj` tells neither the line of an error nor the text: they are looked for in a
-/// second pass over the file, made only after a failure.
-pub fn read(path: &Path, file: File) -> Result<Polygons, SceneError> {
-    let (statements, skipped) = essence(Lines::new(path, file))?;
+/// second pass over the file, which is opened again only after a failure.
+pub fn read<R: Read>(path: &Path, open: impl Fn() -> Result<R, SceneError>) -> Result<Polygons, SceneError> {
+    let (statements, skipped) = essence(Lines::new(path, open()?))?;
     // Polygons are fanned here, as triangulated ones can't be told from the marks.
     let options = tobj::LoadOptions::default();
     let no_materials = |_: &Path| Ok(Default::default());
     let loaded = tobj::load_obj_buf(&mut statements.as_slice(), &options, no_materials);
-    let failure = |reason: String| match second_look::at(path) {
+    let failure = |reason: String| match open().and_then(|again| second_look::at(Lines::new(path, again))) {
         Ok(()) => SceneError::Mesh { path: path.to_owned(), reason },
         Err(found) => found,
     };
@@ -38,7 +38,7 @@ pub fn read(path: &Path, file: File) -> Result<Polygons, SceneError> {
 /// order mark, names that are not UTF-8, comments behind a statement, a fourth coordinate, polylines
 /// (which it takes for faces) and groups (within each of which it numbers the vertices anew). A point
 /// after each vertex has it number them as the file does.
-fn essence(mut lines: Lines) -> Result<(Vec<u8>, u64), SceneError> {
+fn essence(mut lines: Lines<impl Read>) -> Result<(Vec<u8>, u64), SceneError> {
     let (mut out, mut skipped) = (Vec::new(), 0);
     while lines.advance()? {
         let mut words = lines.words(Some(b'#'));

@@ -5,6 +5,7 @@ use super::polygons::{MOST, Polygons};
 use super::position::position;
 use crate::error::SceneError;
 use accel::Mesh;
+use std::io::Read;
 
 #[derive(Default)]
 struct Element {
@@ -15,7 +16,7 @@ struct Element {
 }
 
 /// Reads the mesh.
-pub fn read(mut lines: Lines) -> Result<Polygons, SceneError> {
+pub fn read(mut lines: Lines<impl Read>) -> Result<Polygons, SceneError> {
     let elements = header(&mut lines)?;
     let mesh = Mesh { positions: Vec::new(), triangles: Vec::new() };
     let mut polygons = Polygons { mesh, skipped: 0 };
@@ -49,7 +50,7 @@ pub fn read(mut lines: Lines) -> Result<Polygons, SceneError> {
     Ok(polygons)
 }
 
-fn header(lines: &mut Lines) -> Result<Vec<Element>, SceneError> {
+fn header(lines: &mut Lines<impl Read>) -> Result<Vec<Element>, SceneError> {
     let mut elements: Vec<Element> = Vec::new();
     let mut is_first = true;
     while lines.advance()? {
@@ -89,7 +90,7 @@ fn header(lines: &mut Lines) -> Result<Vec<Element>, SceneError> {
     Err(lines.syntax("the header has no `end_header`".into()))
 }
 
-fn vertex(lines: &Lines, element: &Element, mesh: &mut Mesh) -> Result<(), SceneError> {
+fn vertex(lines: &Lines<impl Read>, element: &Element, mesh: &mut Mesh) -> Result<(), SceneError> {
     let number = mesh.positions.len() + 1;
     if number > MOST {
         return Err(lines.too_large("vertices", MOST));
@@ -113,7 +114,7 @@ fn vertex(lines: &Lines, element: &Element, mesh: &mut Mesh) -> Result<(), Scene
 }
 
 fn face(
-    lines: &Lines,
+    lines: &Lines<impl Read>,
     element: &Element,
     polygons: &mut Polygons,
     vertices: Option<usize>,

@@ -4,16 +4,13 @@ use super::lines::{Lines, show};
 use super::polygons::MOST;
 use super::position::position;
 use crate::error::SceneError;
-use std::fs::File;
-use std::path::Path;
+use std::io::Read;
 
 /// Looks for the first statement that makes no sense, by the rules of the reader.
 ///
 /// # Errors
 /// The finding; none if the file is a mesh.
-pub fn at(path: &Path) -> Result<(), SceneError> {
-    let file = File::open(path).map_err(|source| SceneError::Io { path: path.to_owned(), source })?;
-    let mut lines = Lines::new(path, file);
+pub fn at(mut lines: Lines<impl Read>) -> Result<(), SceneError> {
     let (mut vertices, mut faces, mut skipped) = (0, 0, 0);
     // A face may name vertices that follow it: its greatest number is held to the end.
     let mut greatest = (0, 0);
@@ -61,7 +58,7 @@ pub fn at(path: &Path) -> Result<(), SceneError> {
 }
 
 /// The vertex number, from 0, of a corner such as `7`, `7/2`, `7//3` or `-1`.
-fn corner(lines: &Lines, word: &[u8], vertices: usize) -> Result<u32, SceneError> {
+fn corner(lines: &Lines<impl Read>, word: &[u8], vertices: usize) -> Result<u32, SceneError> {
     let number = word.split(|b| *b == b'/').next().unwrap_or_default();
     let index: i64 = std::str::from_utf8(number)
         .ok()

@@ -12,7 +12,7 @@ pub use rays::rays;
 pub use reach::{Bounds, Reach, WIDE};
 pub use scene::{SHAPES, Shape, scene, scene_of};
 pub use solids::{KINDS, solids};
-pub use structure::{structure, structure_with};
+pub use structure::structure;
 
 use crate::Numbers;
 use accel::Vec3;

@@ -4,21 +4,16 @@ use crate::Numbers;
 use lanes::Level;
 use primitives::KernelId;
 
-/// A structure with settings and a kernel, as the command line takes them.
-pub fn structure(numbers: &mut impl Numbers) -> String {
-    let kernel = numbers.one_of(&KernelId::ALL);
-    structure_with(numbers, kernel)
-}
-
-/// [`structure`] with this kernel.
-pub fn structure_with(numbers: &mut impl Numbers, kernel: KernelId) -> String {
+/// A structure with settings and this kernel, as the command line takes them; grids are of no more than `finest` slices an axis,
+/// or 40.
+pub fn structure(numbers: &mut impl Numbers, kernel: KernelId, finest: u32) -> String {
     let resolution = match numbers.below(4) {
         0 => String::new(),
-        1 => format!(",resolution={}", 1 + numbers.below(20)),
+        1 => format!(",resolution={}", 1 + numbers.below(20).min(finest - 1)),
         2 => {
             format!(",resolution={}x{}x{}", 1 + numbers.below(9), 1 + numbers.below(9), 1 + numbers.below(40))
         }
-        _ => format!(",resolution={}", numbers.one_of(&[1, 2, 64])),
+        _ => format!(",resolution={}", numbers.one_of(&[1, 2, finest])),
     };
     let levels: Vec<Level> = Level::ALL.into_iter().filter(|level| level.available()).collect();
     let level = numbers.one_of(&levels).id();

@@ -89,7 +89,7 @@ impl Case {
             Err(difference) => return self.differences.push(here(&difference)),
         };
         for _ in 0..size.structures {
-            let spec = cases::structure_with(&mut numbers, kernel);
+            let spec = cases::structure(&mut numbers, kernel, 64);
             match judged.hold(&spec) {
                 Ok(0) => self.held.push(Held::new(&spec, 0)),
                 Ok(rays) => {
