@@ -429,6 +429,21 @@ mod tests {
     }
 
     #[test]
+    fn a_box_far_from_the_origin_of_coordinates_is_touched_from_far_away() {
+        // Both meet the ray in one point, at t = 2^36, which only one of them is moved to without rounding.
+        let ray = Ray::new(
+            Vec3::new(34_368_126_976.0, -137_430_564_864.0, 103_087_603_712.0),
+            Vec3::new(-0.5, 2.0, -1.5),
+        );
+        let object = Aabb { min: Vec3::splat(8_388_605.5), max: Vec3::splat(8_388_608.0) };
+        assert!(object.overlap(ray.origin, ray.direction).is_some());
+        let all = Aabb { max: Vec3::new(8_388_609.0, 8_388_608.0, 8_388_608.0), ..object };
+        let grid = Grid::new(all, [4; 3]).unwrap();
+        assert!(grid.clip(&ray).is_some());
+        assert!(grid.clip_rows(&RayRows::<8>::load(&[ray])).met[0]);
+    }
+
+    #[test]
     fn clipping_works_at_any_scale() {
         for scale in [2f32.powi(-100), 1.0, 2f32.powi(100)] {
             let bounds = Aabb { min: Vec3::ZERO, max: Vec3::splat(scale) };

@@ -1,5 +1,6 @@
 //! How much memory a structure may take, and taking it.
 
+use crate::BuildError;
 use crate::parallel::prelude::*;
 use crate::parallel::repeat_n;
 use std::path::{Path, PathBuf};
@@ -9,6 +10,22 @@ use std::path::{Path, PathBuf};
 pub fn filled<T: Clone + Send>(value: T, len: usize) -> Vec<T> {
     const TASK: usize = 1 << 12;
     repeat_n(value, len).with_min_len(TASK).collect()
+}
+
+/// An empty vector with room for so many, for a structure that is being built: what grows with a scene is asked for and not taken
+/// for granted.
+///
+/// # Errors
+/// [`BuildError::TooLarge`] if the system doesn't give it.
+pub fn room<T>(structure: &str, len: usize) -> Result<Vec<T>, BuildError> {
+    let mut room = Vec::new();
+    if room.try_reserve_exact(len).is_ok() {
+        return Ok(room);
+    }
+    let bytes = len as u128 * size_of::<T>() as u128;
+    // There is less, whatever is said.
+    let limit = available_memory().min(bytes.saturating_sub(1));
+    Err(BuildError::TooLarge { structure: structure.into(), bytes, limit })
 }
 
 /// The elements of all vectors in order, moved by all threads of the current pool.
@@ -102,6 +119,15 @@ mod tests {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
                 assert_eq!(pool.install(|| concatenated(&parts)), expected);
             }
+        }
+    }
+
+    #[test]
+    fn what_no_system_has_is_an_error() {
+        assert!(room::<u64>("x", 1000).unwrap().capacity() >= 1000);
+        for len in [1 << 60, usize::MAX] {
+            let error = room::<u64>("x", len).unwrap_err();
+            assert!(matches!(error, BuildError::TooLarge { bytes, limit, .. } if bytes > limit), "{error}");
         }
     }
 

@@ -5,7 +5,6 @@ mod dense;
 mod face;
 mod fast;
 mod general;
-mod image_space;
 mod raster;
 
 pub use accel::{

@@ -2,7 +2,7 @@
 //! force does, and with the exact kernel that is the truth.
 
 use accel::tolerance::FAR;
-use accel::{Accel, Builder, Hit, Ray, RaySet, Scene, Vec3, Workload};
+use accel::{Accel, Builder, Geometry, Hit, Mesh, Ray, RaySet, Scene, Vec3, View, Workload};
 use baselines::Brute;
 use harness::registry;
 use oracle::{Verdict, classify};
@@ -99,6 +99,29 @@ fn the_scale_of_the_scene_makes_no_difference() {
         let scene = load(&format!("bumps-1k@scale={scale}"));
         for power in [10, 30, 52] {
             check(&scene, scale + power, 6, &[KernelId::Exact, KernelId::MollerTrumbore]);
+        }
+    }
+}
+
+/// Found by a fuzzer: the line meets the padded boxes of an object and of the whole scene in one point, and the scene lies so far
+/// from the origin of coordinates that a point of the line near it is rounded.
+#[test]
+fn a_scene_that_is_only_touched_is_not_missed() {
+    let near = Vec3::splat(8_388_606.0);
+    let far = Vec3::splat(8_388_607.5);
+    let positions = vec![near, far, Vec3 { z: near.z, ..far }, Vec3 { x: 8_388_608.0, ..far }];
+    let mesh = Mesh { positions, triangles: vec![[0, 1, 2], [3, 1, 2], [0, 0, 0]] };
+    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
+    let scene = Scene { id: "touched".into(), geometry: Geometry::Triangles(mesh), view };
+    let origin = Vec3::new(34_368_126_976.0, -137_430_564_864.0, 103_087_603_712.0);
+    let rays = RaySet::List(vec![Ray::new(origin, Vec3::new(-0.5, 2.0, -1.5))]);
+    for kernel in KernelId::ALL {
+        let expected = answers(Brute::new(kernel).build(&scene, &Workload::GENERAL).unwrap().as_ref(), &rays);
+        for id in ["minmax", "sphere", "ssm", "ssm-list", "bmssm", "bmssm-dense"] {
+            let choice = registry::parse(&format!("{id}:kernel={kernel}")).unwrap();
+            let built = choice.builder.build(&scene, &Workload::GENERAL).unwrap();
+            let hits = answers(built.as_ref(), &rays);
+            assert!(same(&hits[0], &expected[0]), "{id}, {kernel}: {hits:?}; brute force: {expected:?}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Grids and dense maps never take more memory than they may, on the way to being built included.
 
-use accel::{Geometry, Mesh, Scene, Vec3, View, Workload};
+use accel::{Geometry, Mesh, Raster, Scene, Vec3, View, Workload};
 use harness::registry::{self, guarded_build};
 
 #[global_allocator]
@@ -88,14 +88,24 @@ fn peaks_are_within_limits() {
             }
         }
     }
-    // Scenes of which the phases of building take turns to take most.
+    // Scenes and images of which the phases of building take turns to take most.
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             for (triangles, size) in [(1, 0.1), (600, 0.05), (5000, 1.0), (70_000, 0.01)] {
                 let scene = &scene_of(triangles, size);
-                for structure in ["bmssm", "bmssm:kernel=exact", "bmssm:geometry=scene"] {
-                    let limited = Limited { structure, scene, workload: &Workload::GENERAL };
+                let image = |side| Workload::raster(Raster::perspective(&scene.view, side, side));
+                let both = Workload { general: true, ..image(64) };
+                for (structure, workload) in [
+                    ("bmssm", Workload::GENERAL),
+                    ("bmssm:kernel=exact", Workload::GENERAL),
+                    ("bmssm:geometry=scene", Workload::GENERAL),
+                    ("bmssm", image(64)),
+                    ("bmssm:kernel=exact,tile=1", image(1024)),
+                    ("bmssm", both),
+                ] {
+                    let workload = &workload;
+                    let limited = Limited { structure, scene, workload };
                     let (_, peak) = limited.at(1 << 40);
                     // At what it takes at most, or not much above, it is built.
                     for part in [0.1, 0.5, 0.8, 0.93, 1.0, 1.3] {
@@ -103,7 +113,9 @@ fn peaks_are_within_limits() {
                     }
                     let roomy = peak + peak / 2 + ROOM;
                     if !matches!(limited.at(roomy), (Ok(true), _)) {
-                        note(Err(format!("{structure} over {triangles}: refused at {roomy}, takes {peak}")));
+                        note(Err(format!(
+                            "{structure} over {triangles} ({workload:?}): refused at {roomy}, takes {peak}"
+                        )));
                     }
                 }
             }

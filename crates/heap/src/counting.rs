@@ -1,6 +1,6 @@
-//! The system's allocator, counting what passes through it.
+//! The system's allocator, counting what passes through it, and refusing what it is told to.
 
-use crate::{grown, shrunk};
+use crate::{grown, is_refused, shrunk};
 use std::alloc::{GlobalAlloc, Layout, System};
 
 /// Counts bytes as asked for, before the system rounds them up, and asks for huge pages where they are many: Embree's
@@ -37,14 +37,20 @@ fn counted(place: *mut u8, bytes: usize) -> *mut u8 {
 }
 
 // SAFETY: every call is passed on unchanged to the system's allocator, whose answers are
-// returned unchanged; counting and advising neither allocate nor panic.
+// returned unchanged, or answered by no memory, which an allocator may do; counting and advising neither allocate nor panic.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        if is_refused(layout.size()) {
+            return std::ptr::null_mut();
+        }
         // SAFETY: the caller's promises are those that `System` asks for.
         counted(unsafe { System.alloc(layout) }, layout.size())
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        if is_refused(layout.size()) {
+            return std::ptr::null_mut();
+        }
         // SAFETY: as in `alloc`.
         counted(unsafe { System.alloc_zeroed(layout) }, layout.size())
     }
@@ -56,6 +62,9 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        if size > layout.size() && is_refused(size) {
+            return std::ptr::null_mut();
+        }
         // SAFETY: as in `alloc`.
         let new = unsafe { System.realloc(place, layout, size) };
         if !new.is_null() {

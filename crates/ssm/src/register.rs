@@ -46,6 +46,21 @@ impl Limit {
         Ok(Self { bytes: self.bytes - taken, ..self })
     }
 
+    /// So many values, none of them set.
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory, [`BuildError::Cancelled`].
+    pub fn blank<T: Default>(self, len: usize, cancel: Cancel) -> Result<Vec<T>, BuildError> {
+        // The system clears each page at the first touch, which takes a second for a few gigabytes.
+        const PIECE: usize = 1 << 22;
+        let mut blank = accel::room(self.structure, len)?;
+        while blank.len() < len {
+            cancel.check(self.structure)?;
+            blank.resize_with(len.min(blank.len() + PIECE), T::default);
+        }
+        Ok(blank)
+    }
+
     pub fn check(self, bytes: u128) -> Result<(), BuildError> {
         let Self { structure, bytes: limit } = self;
         if bytes <= limit {
@@ -120,7 +135,7 @@ pub(crate) fn register(
         });
         cancel.check(limit.structure)
     };
-    let offsets: Vec<AtomicU32> = vec![0; cells + 1].into_iter().map(AtomicU32::new).collect();
+    let offsets: Vec<AtomicU32> = limit.blank(cells + 1, cancel)?;
     each(&|_, found| {
         counted.fetch_add(found.iter().map(|word| u64::from(word.bits.count_ones())).sum(), Relaxed);
         for cell in found.iter().flat_map(|word| word.cells()) {
@@ -136,21 +151,23 @@ pub(crate) fn register(
         ends += offset.load(Relaxed);
         offset.store(ends, Relaxed);
     }
-    let lists: Vec<AtomicU32> = vec![0; end as usize].into_iter().map(AtomicU32::new).collect();
+    let lists: Vec<AtomicU32> = limit.blank(end as usize, cancel)?;
     each(&|reference, found| {
         for cell in found.iter().flat_map(|word| word.cells()) {
             let place = add(&offsets[cell], u32::MAX) - 1;
             lists[place as usize].store(reference, Relaxed);
         }
     })?;
+    // These keep their memory.
     let offsets: Vec<u32> = offsets.into_iter().map(AtomicU32::into_inner).collect();
     let mut references: Vec<u32> = lists.into_iter().map(AtomicU32::into_inner).collect();
-    sort_lists(&offsets, &mut references);
+    sort_lists(&offsets, &mut references, cancel);
+    cancel.check(limit.structure)?;
     Ok(Lists { offsets, references })
 }
 
 /// Puts every list in ascending order, so that threads leave no trace.
-fn sort_lists(offsets: &[u32], mut references: &mut [u32]) {
+fn sort_lists(offsets: &[u32], mut references: &mut [u32], cancel: Cancel) {
     const CHUNK: usize = 1 << 14;
     let cells = offsets.len() - 1;
     let mut chunks = Vec::new();
@@ -161,6 +178,9 @@ fn sort_lists(offsets: &[u32], mut references: &mut [u32]) {
         references = rest;
     }
     chunks.into_par_iter().for_each(|(offsets, references)| {
+        if cancel.is_asked() {
+            return;
+        }
         for ends in offsets.windows(2) {
             if ends[1] - ends[0] > 1 {
                 references[(ends[0] - offsets[0]) as usize..(ends[1] - offsets[0]) as usize].sort_unstable();

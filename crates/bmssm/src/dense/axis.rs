@@ -1,5 +1,6 @@
 //! Bit maps of the slices of one direction.
 
+use accel::BuildError;
 use std::ops::Range;
 
 /// A bit for each slice and object: does the slice touch the object (ⁱR, ʲS or ᵏT of Skala 1993, §2, §5).
@@ -14,8 +15,22 @@ pub struct Axis {
 
 impl Axis {
     /// Maps in which no slice touches any object.
+    ///
+    /// # Panics
+    /// If memory doesn't hold them.
     pub fn new(slices: usize, objects: usize) -> Self {
-        Self { objects, slices, words: vec![0; slices * words_of(objects)] }
+        Self::try_new(slices, objects).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// As [`Axis::new`].
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if memory doesn't hold them.
+    pub fn try_new(slices: usize, objects: usize) -> Result<Self, BuildError> {
+        let len = slices * words_of(objects);
+        let mut words = accel::room(super::ID, len)?;
+        words.resize(len, 0);
+        Ok(Self { objects, slices, words })
     }
 
     /// Bytes of the maps of so many slices and objects: their bits, rounded up to words of 64.

@@ -1,8 +1,8 @@
 //! Maps of an image: R for rows, S for columns (Skala 1993, §2, §4).
 
 use super::Axis;
-use crate::image_space::ImageSpace;
-use accel::{Bounds, Raster};
+use accel::image_space::ImageSpace;
+use accel::{Bounds, BuildError, Raster};
 
 /// The bit maps of a raster. Every primary ray is the meet of a row plane and a column plane, so
 /// ⁱR & ʲS are its candidates; there are no slices in depth, "not convenient for primary ray
@@ -29,16 +29,27 @@ pub struct Coverage {
 
 impl ImageMaps {
     /// Maps the boxes of `objects`. An object behind the eye has no bit.
+    ///
+    /// # Panics
+    /// If memory doesn't hold the maps.
     pub fn new<B: Bounds>(objects: &B, raster: Raster) -> Self {
+        Self::try_new(objects, raster).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// As [`ImageMaps::new`].
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if memory doesn't hold the maps.
+    pub fn try_new<B: Bounds>(objects: &B, raster: Raster) -> Result<Self, BuildError> {
         let space = ImageSpace::new(&raster);
-        let mut rows = Axis::new(raster.rows as usize, objects.len());
-        let mut cols = Axis::new(raster.cols as usize, objects.len());
+        let mut rows = Axis::try_new(raster.rows as usize, objects.len())?;
+        let mut cols = Axis::try_new(raster.cols as usize, objects.len())?;
         for id in 0..objects.len() as u32 {
             let pixels = space.pixels(&objects.bounds(id));
             rows.touch(pixels.rows, id);
             cols.touch(pixels.cols, id);
         }
-        Self { raster, rows, cols }
+        Ok(Self { raster, rows, cols })
     }
 
     /// Bytes of the maps of so many objects.

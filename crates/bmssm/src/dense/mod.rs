@@ -99,8 +99,8 @@ impl Maps {
         if bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes, limit });
         }
-        let image = workload.raster.map(|raster| ImageMaps::new(objects, raster));
-        let space = grid.map(|grid| SpaceMaps::new(objects, grid));
+        let image = workload.raster.map(|raster| ImageMaps::try_new(objects, raster)).transpose()?;
+        let space = grid.map(|grid| SpaceMaps::try_new(objects, grid)).transpose()?;
         Ok(Self { objects: objects.len(), image, space })
     }
 

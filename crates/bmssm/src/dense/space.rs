@@ -2,7 +2,7 @@
 
 use super::Axis;
 use accel::grid::Grid;
-use accel::{Aabb, Bounds};
+use accel::{Aabb, Bounds, BuildError};
 use lanes::ones;
 
 /// The bit maps of a grid: ⁱR & ʲS & ᵏT are the candidates of cell (i, j, k).
@@ -16,15 +16,27 @@ pub struct SpaceMaps {
 
 impl SpaceMaps {
     /// Maps the boxes of `objects`, which must lie in the grid's bounds.
+    ///
+    /// # Panics
+    /// If memory doesn't hold the maps.
     pub fn new<B: Bounds>(objects: &B, grid: Grid) -> Self {
-        let mut axes = grid.resolution().map(|n| Axis::new(n as usize, objects.len()));
+        Self::try_new(objects, grid).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// As [`SpaceMaps::new`].
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if memory doesn't hold the maps.
+    pub fn try_new<B: Bounds>(objects: &B, grid: Grid) -> Result<Self, BuildError> {
+        let axis = |a: usize| Axis::try_new(grid.resolution()[a] as usize, objects.len());
+        let mut axes = [axis(0)?, axis(1)?, axis(2)?];
         for id in 0..objects.len() as u32 {
             let bounds = objects.bounds(id);
             for (axis, maps) in axes.iter_mut().enumerate() {
                 maps.touch(grid.slices(axis, &bounds), id);
             }
         }
-        Self { grid, axes }
+        Ok(Self { grid, axes })
     }
 
     /// Bytes of the maps of so many objects: M_BMSSM.

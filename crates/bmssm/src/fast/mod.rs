@@ -65,10 +65,11 @@ impl<'s> WithObjects<'s> for Build {
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
         let plan = Plan::new(&self.settings, objects.len(), &self.workload, limit, O::bytes_of_blocks);
-        if plan.bytes > limit {
-            return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.bytes, limit });
+        let too_large = |bytes| BuildError::TooLarge { structure: ID.into(), bytes, limit };
+        if plan.beside > limit {
+            return Err(too_large(plan.beside));
         }
-        Ok(Box::new(Built::new(objects, plan)))
+        Ok(Box::new(Built::new(objects, plan, limit).map_err(too_large)?))
     }
 }
 

@@ -17,9 +17,11 @@ pub struct Plan {
     pub raster: Option<(Raster, raster::Settings)>,
     /// The maps for all other rays.
     pub general: Option<general::Settings>,
-    /// Most bytes that it will take, geometry copies included: for rays of any kind at any moment of building, for an image once
-    /// it is built.
+    /// Bytes that it will take, geometry copies included: for rays of any kind the most at any moment of building, for an image
+    /// about what is held where objects are small and all are seen.
     pub bytes: u128,
+    /// Those of them that rays of any kind take.
+    pub beside: u128,
     reasons: Vec<String>,
 }
 
@@ -34,7 +36,7 @@ impl Plan {
         copy: impl Fn(usize) -> u128,
     ) -> Self {
         let mut reasons = Vec::new();
-        let mut bytes = 0;
+        let (mut bytes, mut beside) = (0, 0);
         let raster = workload.raster.map(|image| {
             reasons.push(format!(
                 "image maps over {} row and {} column slices of {} pixels: the workload names a raster; none in depth",
@@ -47,21 +49,22 @@ impl Plan {
         });
         let general = workload.general.then(|| {
             let threads = accel::parallel::threads();
-            let least = bytes + general::bytes(objects, threads, |slots| (slots * size_of::<u32>()) as u128);
-            let rows = bytes + general::bytes(objects, threads, &copy);
+            let least = general::bytes(objects, threads, |slots| (slots * size_of::<u32>()) as u128);
+            let rows = general::bytes(objects, threads, &copy);
             let (storage, why) = match settings.geometry {
                 Some(storage) => (storage, "as set"),
-                None if rows > limit && least < rows => {
+                None if bytes + rows > limit && least < rows => {
                     (Storage::Scene, "copies would take more than there is")
                 }
                 None => (Storage::Rows, "a copy for speed"),
             };
-            bytes = if storage == Storage::Rows { rows } else { least };
+            beside = if storage == Storage::Rows { rows } else { least };
+            bytes += beside;
             let stretch = stretch(settings, objects, &mut reasons);
             reasons.push(format!("geometry={}: {why}", storage.id()));
             general::Settings { simd: settings.simd, stretch, storage }
         });
-        Self { objects, raster, general, bytes, reasons }
+        Self { objects, raster, general, bytes, beside, reasons }
     }
 }
 

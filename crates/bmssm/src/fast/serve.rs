@@ -2,7 +2,7 @@
 
 use super::Plan;
 use crate::general::General;
-use crate::raster::RasterMaps;
+use crate::raster::{Bytes, RasterMaps};
 use accel::parallel::for_each_chunk;
 use accel::{Accel, Counters, Footprint, Hit, Ray, RaySet};
 use lanes::PackedObjects;
@@ -27,10 +27,17 @@ fn chunk(rays: usize) -> usize {
 }
 
 impl<O: PackedObjects> Built<O> {
-    pub fn new(objects: O, plan: Plan) -> Self {
-        let raster = plan.raster.map(|(raster, settings)| RasterMaps::build(objects, &raster, settings));
+    /// Builds what the plan names.
+    ///
+    /// # Errors
+    /// The bytes that it would take, if they are more than `limit`.
+    pub fn new(objects: O, plan: Plan, limit: u128) -> Result<Self, u128> {
+        // The image's maps are built first, and are there while the others are built.
+        let allowed = Bytes { held: limit.saturating_sub(plan.beside), peak: limit };
+        let image = |(raster, settings)| RasterMaps::build(objects, &raster, settings, allowed);
+        let raster = plan.raster.map(image).transpose()?;
         let general = plan.general.map(|settings| General::new(&objects, settings));
-        Self { objects, plan, raster, general }
+        Ok(Self { objects, plan, raster, general })
     }
 
     /// The image maps, where the rays are the image's or there is nothing else.

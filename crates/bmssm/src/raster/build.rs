@@ -1,7 +1,8 @@
 //! Building the maps: no dense map is ever made.
 
 use super::maps::{Block, GROUP, GROUPS, TileMaps};
-use super::order::{Shown, shown, sorted};
+use super::memory::{Bytes, Image};
+use super::order::{Shown, joined, shown, sorted};
 use super::{RasterMaps, Settings, THICKNESS};
 use accel::parallel::prelude::*;
 use accel::{Raster, concatenated, filled};
@@ -19,15 +20,21 @@ struct Part {
 }
 
 impl<O: PackedObjects> RasterMaps<O> {
-    /// Builds the maps of `raster` in the current rayon pool.
-    pub fn build(objects: O, raster: &Raster, settings: Settings) -> Self {
+    /// Builds the maps of `raster` in the current rayon pool, within what is allowed.
+    ///
+    /// # Errors
+    /// The bytes that would be taken, as soon as it is known that they are too many.
+    pub fn build(objects: O, raster: &Raster, settings: Settings, allowed: Bytes) -> Result<Self, u128> {
+        let image = |shown, copy| Image { raster, settings: &settings, objects: objects.len(), shown, copy };
+        image(0, 0).bytes(0).check(allowed)?;
         let shown = shown(objects.shape(), raster, settings.simd);
-        let count = shown.len();
-        let Laid { blocks, words, ids } = laid(shown, raster, &settings);
+        let count = shown.iter().map(Vec::len).sum();
+        let image = image(count, O::bytes_of_blocks(count.next_multiple_of(BLOCK)));
+        let Laid { blocks, words, ids } = laid(shown, image, allowed)?;
         let tiles = |pixels: u32| pixels.div_ceil(THICKNESS).div_ceil(settings.tile);
         let tiles = TileMaps::new(&blocks, tiles(raster.rows), tiles(raster.cols), settings.tile);
         let geometry = objects.blocks(&ids);
-        Self { objects, raster: *raster, settings, shown: count, geometry, blocks, words, tiles }
+        Ok(Self { objects, raster: *raster, settings, shown: count, geometry, blocks, words, tiles })
     }
 }
 
@@ -39,21 +46,29 @@ struct Laid {
 }
 
 /// Puts the objects in blocks, the nearest block first.
-fn laid(shown: Vec<Shown>, raster: &Raster, settings: &Settings) -> Laid {
+fn laid(shown: Vec<Vec<Shown>>, image: Image, allowed: Bytes) -> Result<Laid, u128> {
+    let Image { raster, settings, .. } = image;
+    image.bytes(0).check(allowed)?;
+    let shown = joined(shown);
     let order = sorted(&shown, raster, settings);
+    // Counted only where it may matter.
+    if image.bytes(image.most_words()).check(allowed).is_err() {
+        image.bytes(words(&shown, &order)).check(allowed)?;
+    }
     let mut parts: Vec<Part> = order
         .par_chunks(CHUNK * BLOCK)
         .map(|slots| settings.simd.run(Registered { shown: &shown, slots }))
         .collect();
-    drop(order);
+    drop((order, shown));
     let mut words = 0;
-    let mut unordered = Vec::with_capacity(shown.len().div_ceil(BLOCK));
+    let mut unordered = Vec::with_capacity(image.shown.div_ceil(BLOCK));
     for part in &parts {
         unordered.extend(part.blocks.iter().map(|b| Block { words: b.words + words, ..*b }));
         words += part.words.len() as u32;
     }
-    let words: Vec<_> = parts.iter_mut().map(|part| std::mem::take(&mut part.words)).collect();
-    let words = concatenated(&words);
+    let apart: Vec<_> = parts.iter_mut().map(|part| std::mem::take(&mut part.words)).collect();
+    let words = concatenated(&apart);
+    drop(apart);
     // Depths are not negative, so their bits are ordered as they are. Words stay in the order of places.
     let mut nearest_first: Vec<(u32, u32)> =
         unordered.iter().zip(0..).map(|(block, i)| (block.depth[0].to_bits(), i)).collect();
@@ -64,7 +79,17 @@ fn laid(shown: Vec<Shown>, raster: &Raster, settings: &Settings) -> Laid {
         let (part, block) = (i as usize / CHUNK, i as usize % CHUNK);
         ids.copy_from_slice(&parts[part].ids[block * BLOCK..][..BLOCK]);
     });
-    Laid { blocks, words, ids }
+    Ok(Laid { blocks, words, ids })
+}
+
+/// How many words the blocks of this order have.
+fn words(shown: &[Shown], order: &[u64]) -> usize {
+    let spans = |of: fn(&Shown) -> [u32; 2], block: &[u64]| {
+        let ends = block.iter().map(|slot| of(&shown[*slot as u32 as usize]));
+        let [first, last] = ends.fold([u32::MAX, 0], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        (last + 1 - first) as usize
+    };
+    order.chunks(BLOCK).map(|block| spans(|s| s.rows, block) + spans(|s| s.cols, block)).sum()
 }
 
 /// Registers neighbouring objects, block by block.
@@ -88,6 +113,7 @@ impl Task for Registered<'_> {
             }
             part.push(block.iter().map(|&i| self.shown[i as u32 as usize]));
         }
+        part.words.shrink_to_fit();
         part
     }
 }

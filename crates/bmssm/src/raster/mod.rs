@@ -13,10 +13,13 @@
 mod all;
 mod build;
 mod maps;
+mod memory;
 mod order;
 mod serve;
 mod single;
 mod tile;
+
+pub use memory::Bytes;
 
 use accel::Raster;
 use lanes::{Level, PackedObjects};

@@ -1,7 +1,7 @@
 //! The order of objects: by size class, then by Morton code of column, row and depth.
 
 use super::{Settings, THICKNESS};
-use crate::image_space::{ImageSpace, Pixels};
+use accel::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
 use accel::parallel::map_tasks;
 use accel::parallel::prelude::*;
@@ -27,14 +27,16 @@ const LANES: usize = 8;
 /// Objects handled by one task.
 const CHUNK: usize = 1 << 14;
 
-/// The objects that both a row plane and a column plane touch.
-pub(super) fn shown<B: Bounds + Copy>(objects: B, raster: &Raster, simd: Level) -> Vec<Shown> {
+/// The objects that both a row plane and a column plane touch, task by task.
+pub(super) fn shown<B: Bounds + Copy>(objects: B, raster: &Raster, simd: Level) -> Vec<Vec<Shown>> {
     let space = ImageSpace::new(raster);
     let of = |first: usize| simd.run(Projected { objects, space: &space, first });
-    if objects.len() <= CHUNK {
-        return of(0);
-    }
-    concatenated(&map_tasks(objects.len().div_ceil(CHUNK), &|i| of(i * CHUNK)))
+    map_tasks(objects.len().div_ceil(CHUNK), &|i| of(i * CHUNK))
+}
+
+/// Those of all tasks.
+pub(super) fn joined(mut shown: Vec<Vec<Shown>>) -> Vec<Shown> {
+    if shown.len() > 1 { concatenated(&shown) } else { shown.pop().unwrap_or_default() }
 }
 
 /// The objects shown of [`CHUNK`] objects.

@@ -1,7 +1,7 @@
 //! Single pixels, coverage and memory.
 
 use super::{RasterMaps, THICKNESS};
-use crate::image_space::ImageSpace;
+use accel::image_space::ImageSpace;
 use accel::{Footprint, Hit, Nearest, Raster, Ray, vec_bytes};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Simd, Task, ones};
 use std::ops::Range;

@@ -224,7 +224,8 @@ fn only_what_can_be_seen_is_stored_and_counted() {
         type Out = ();
         fn objects<O: PackedObjects + 's>(self, objects: O) {
             let Self(raster, simd) = self;
-            let maps = RasterMaps::build(objects, &raster, Settings { simd, ..Settings::default() });
+            let settings = Settings { simd, ..Settings::default() };
+            let maps = RasterMaps::build(objects, &raster, settings, Bytes::ANY).unwrap();
             let covered: u32 = maps.coverage().iter().map(|w| w.count_ones()).sum();
             assert_eq!(covered as usize, maps.shown());
             assert!(maps.shown() < objects.len() / 2, "{}", maps.plan());

@@ -72,7 +72,7 @@ pub(super) fn divide<B: Bounds>(
         return Ok(cells);
     }
     let held = limit.less(order.len() as u128 * size_of::<Slices>() as u128)?;
-    let slices = Slices::of_all(field, objects, order);
+    let slices = Slices::of_all(field, objects, order, (limit, cancel))?;
     // In the end there are the undivided cells, the trees, and both of them joined.
     let undivided = field.occupied.len() as u128 * (BRICK_BYTES + 8) + cells.references.len() as u128 * 4;
     let bytes = held.bytes.saturating_sub(2 * undivided) / 2;
@@ -107,24 +107,31 @@ pub(super) fn divide<B: Bounds>(
     // Positions have 32 bits.
     let numbered = Limit { bytes: limit.bytes.min(u128::from(u32::MAX) * 4), ..limit };
     numbered.check(references * 4)?;
-    Ok(join(&cells, field, trees))
+    join(&cells, field, trees, (limit, cancel))
 }
 
 /// Where an object lies, in slices of the finest level, of which there are no more than 16 bits number; nowhere in an empty slot.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Slices([[u16; 2]; 3]);
 
 impl Slices {
     const NOWHERE: Self = Self([[0; 2]; 3]);
 
     /// Those of the object in each slot of `order`.
-    fn of_all<B: Bounds>(field: &Field, objects: &B, order: &[u32]) -> Vec<Self> {
+    fn of_all<B: Bounds>(
+        field: &Field,
+        objects: &B,
+        order: &[u32],
+        (limit, cancel): (Limit, Cancel),
+    ) -> Result<Vec<Self>, BuildError> {
         const { assert!(Grid::MOST_SLICES <= u16::MAX as u32) };
         let of = |object: &u32| match *object {
             EMPTY_SLOT => Self::NOWHERE,
             object => Self(field.slices(&objects.bounds(object)).map(|r| [r.start as u16, r.end as u16])),
         };
-        order.par_iter().with_min_len(1 << 12).map(of).collect()
+        let mut all: Vec<Self> = limit.blank(order.len(), cancel)?;
+        all.par_iter_mut().zip(order).with_min_len(1 << 12).for_each(|(slices, object)| *slices = of(object));
+        Ok(all)
     }
 
     fn ranges(&self) -> [Range<u32>; 3] {
@@ -283,17 +290,22 @@ fn spared(groups: &[(u32, u64)]) -> f32 {
 }
 
 /// The grid's own cells and behind them the bricks of all trees.
-fn join(cells: &Cells, field: &mut Field, trees: Vec<(u32, Tree)>) -> Cells {
+fn join(
+    cells: &Cells,
+    field: &mut Field,
+    trees: Vec<(u32, Tree)>,
+    (limit, cancel): (Limit, Cancel),
+) -> Result<Cells, BuildError> {
     let bricks = field.occupied.len();
     let within: usize = trees.iter().map(|(_, tree)| tree.occupied.len()).sum();
     let references: usize = trees.iter().map(|(_, tree)| tree.references.len()).sum();
     let kept: usize = cells.references.len()
         - trees.iter().map(|(cell, _)| cells.length(*cell as usize) as usize - 1).sum::<usize>();
-    let mut occupied = Vec::with_capacity(bricks + within);
-    let mut divided = Vec::with_capacity(bricks + within);
+    let id = limit.structure;
+    let (mut occupied, mut divided) = (accel::room(id, bricks + within)?, accel::room(id, bricks + within)?);
     let mut joined = Cells {
-        positions: Vec::with_capacity((bricks + within) * BRICK + 1),
-        references: Vec::with_capacity(kept + references),
+        positions: accel::room(id, (bricks + within) * BRICK + 1)?,
+        references: accel::room(id, kept + references)?,
     };
     occupied.extend_from_slice(&field.occupied);
     divided.resize(bricks, 0u64);
@@ -301,6 +313,9 @@ fn join(cells: &Cells, field: &mut Field, trees: Vec<(u32, Tree)>) -> Cells {
     let mut coming = own.next();
     let mut first_brick = bricks as u32;
     for cell in 0..cells.positions.len() - 1 {
+        if cell % SOME == 0 {
+            cancel.check(id)?;
+        }
         joined.positions.push(joined.references.len() as u32);
         match coming {
             Some((divided_cell, tree)) if *divided_cell as usize == cell => {
@@ -326,5 +341,8 @@ fn join(cells: &Cells, field: &mut Field, trees: Vec<(u32, Tree)>) -> Cells {
     joined.positions.push(joined.references.len() as u32);
     field.occupied = occupied.into_boxed_slice();
     field.divided = divided.into_boxed_slice();
-    joined
+    Ok(joined)
 }
+
+/// Cells after which it is asked whether to go on.
+const SOME: usize = 1 << 16;

@@ -158,7 +158,7 @@ impl Laid {
         cancel: Cancel,
     ) -> Result<Self, BuildError> {
         let settings = &ssm.settings;
-        let Order { slots, apart, bounds } = order::order(objects);
+        let Order { slots, apart, bounds } = order::order(objects)?;
         let others = slots.len() - if apart { GROUP } else { 0 };
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, others)?;
         let mut field = Field::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
@@ -183,10 +183,12 @@ impl Laid {
             field.cells(&slices[..len], found);
         })?;
         let mut cells = Cells { positions: lists.offsets, references: lists.references };
-        let occupied = cells.positions.par_windows(BRICK + 1).step_by(BRICK).map(|ends| {
-            (0..BRICK).fold(0, |bits, cell| bits | u64::from(ends[cell] != ends[cell + 1]) << cell)
+        let mut occupied: Vec<u64> = limit.blank(bricks, cancel)?;
+        let ends = cells.positions.par_windows(BRICK + 1).step_by(BRICK);
+        occupied.par_iter_mut().zip(ends).for_each(|(bits, ends)| {
+            *bits = (0..BRICK).fold(0, |bits, cell| bits | u64::from(ends[cell] != ends[cell + 1]) << cell);
         });
-        field.occupied = occupied.collect::<Vec<_>>().into_boxed_slice();
+        field.occupied = occupied.into_boxed_slice();
         if let Some(gain) = ssm.divide {
             cells = divide::divide(cells, &mut field, objects, &slots, gain, (limit, cancel))?;
         }
@@ -209,6 +211,7 @@ impl<O: PackedObjects> Built<O> {
         let settings = ssm.settings;
         let Laid { grid, field, cells, boxes, slots, apart } =
             Laid::new(&objects.shape(), ssm, O::bytes_of_blocks, cancel)?;
+        cancel.check(ID)?;
         let blocks = objects.blocks(&slots);
         let mut built = Self { settings, grid, field, cells, boxes, apart, blocks, sort: false, objects };
         built.sort = built.footprint().total() > CACHED;

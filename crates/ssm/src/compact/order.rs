@@ -1,7 +1,8 @@
 //! The order in which objects are packed.
 
+use super::ID;
 use accel::parallel::prelude::*;
-use accel::{Aabb, Bounds};
+use accel::{Aabb, Bounds, BuildError};
 use lanes::{EMPTY_SLOT, ROW};
 
 /// Objects tested together: what one reference of a cell stands for.
@@ -23,7 +24,10 @@ const LARGE: f64 = 0.25;
 /// Sets the largest objects apart, a group at most, and puts the others in order.
 ///
 /// A few objects as large as the scene would be listed all over the grid, and stretch it.
-pub(super) fn order<B: Bounds>(objects: &B) -> Order {
+///
+/// # Errors
+/// [`BuildError::TooLarge`] if the system doesn't give the memory.
+pub(super) fn order<B: Bounds>(objects: &B) -> Result<Order, BuildError> {
     let all = crate::resolution::bounds(objects, |_| true);
     let size = |bounds: &Aabb| {
         (0..3).map(|a| f64::from(bounds.max[a]) - f64::from(bounds.min[a])).fold(0.0, f64::max)
@@ -37,15 +41,25 @@ pub(super) fn order<B: Bounds>(objects: &B) -> Order {
     let mut large: Vec<u32> = large.into_iter().map(|(_, id)| id).collect();
     large.sort_unstable();
     let bounds = crate::resolution::bounds(objects, |id| large.binary_search(&id).is_err());
-    let mut slots = large.clone();
-    slots.resize(slots.len().next_multiple_of(GROUP), EMPTY_SLOT);
-    slots.extend(morton(objects, &bounds, |id| large.binary_search(&id).is_err()));
-    Order { slots, apart: !large.is_empty(), bounds }
+    let apart = large.len().next_multiple_of(GROUP);
+    let others = objects.len() - large.len();
+    let len = apart + others.next_multiple_of(GROUP);
+    let mut slots = accel::room(ID, len)?;
+    slots.extend_from_slice(&large);
+    slots.resize(apart, EMPTY_SLOT);
+    let keyed = morton(objects, &bounds, |id| large.binary_search(&id).is_err())?;
+    slots.extend(keyed[..others].iter().map(|(_, id)| *id));
+    slots.resize(len, EMPTY_SLOT);
+    Ok(Order { slots, apart: !large.is_empty(), bounds })
 }
 
 /// Objects along a Morton curve through the centres of their boxes, so that the objects of a group are
-/// neighbours; the last group is filled up with empty slots.
-fn morton<B: Bounds>(objects: &B, bounds: &Aabb, wanted: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+/// neighbours, each behind its key; those that are not wanted come last.
+fn morton<B: Bounds>(
+    objects: &B,
+    bounds: &Aabb,
+    wanted: impl Fn(u32) -> bool + Sync,
+) -> Result<Vec<(u64, u32)>, BuildError> {
     let scale = [0, 1, 2].map(|a| {
         let extent = f64::from(bounds.max[a]) - f64::from(bounds.min[a]);
         if extent > 0.0 { f64::from(1 << BITS) / extent } else { 0.0 }
@@ -58,12 +72,14 @@ fn morton<B: Bounds>(objects: &B, bounds: &Aabb, wanted: impl Fn(u32) -> bool + 
         };
         spread_axis(0) | spread_axis(1) | spread_axis(2)
     };
-    let ids = (0..objects.len() as u32).into_par_iter().with_min_len(1 << 12);
-    let mut keyed: Vec<(u64, u32)> = ids.filter(|id| wanted(*id)).map(|id| (key(id), id)).collect();
+    let mut keyed = accel::room(ID, objects.len())?;
+    keyed.resize(objects.len(), (u64::MAX, 0));
+    keyed.par_iter_mut().with_min_len(1 << 12).enumerate().for_each(|(id, place)| {
+        let id = id as u32;
+        *place = (if wanted(id) { key(id) } else { u64::MAX }, id);
+    });
     keyed.par_sort_unstable();
-    let slots = keyed.len().next_multiple_of(GROUP);
-    let order = keyed.into_iter().map(|(_, id)| id);
-    order.chain(std::iter::repeat(EMPTY_SLOT)).take(slots).collect()
+    Ok(keyed)
 }
 
 /// Bits of a coordinate in a key.
@@ -97,7 +113,7 @@ mod tests {
             .map(|i| Aabb::of_points([Vec3::new((i * 7 % 37) as f32, 0.0, (i * 5 % 11) as f32)]))
             .collect();
         boxes[5].max.x = 60.0;
-        let order = order(&Boxes::new(&boxes));
+        let order = order(&Boxes::new(&boxes)).unwrap();
         assert_eq!(order.slots.len(), 16 + 48);
         assert!(order.apart && order.bounds.max.x < 37.0);
         assert_eq!(order.slots[..2], [5, EMPTY_SLOT]);

@@ -50,10 +50,10 @@ const FAULTS: [Fault; 11] = [
     },
     Fault {
         target: "scene",
-        what: "sizes below the least are taken",
+        what: "a number of objects overflows",
         file: "crates/scenes/src/generate/mod.rs",
-        text: "if size < least {",
-        replaced: "if size == u32::MAX {",
+        text: "base.saturating_pow(exponent)",
+        replaced: "base.pow(exponent)",
     },
     Fault {
         target: "settings",

@@ -1,7 +1,7 @@
 //! The image of a box near the eye or around it, by its corners.
 
 use super::{Spans, Vector, dot, dot_abs};
-use accel::tolerance::PROJECTION;
+use crate::tolerance::PROJECTION;
 
 /// A closed range of an image coordinate.
 pub(super) type Span = Spans<1>;

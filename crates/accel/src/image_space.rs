@@ -8,8 +8,8 @@
 
 mod corners;
 
-use accel::tolerance::{PROJECTION, RASTER_ROUNDING, RASTER_UNDERFLOW, T_SLACK};
-use accel::{Aabb, Projection, Raster};
+use crate::tolerance::{PROJECTION, RASTER_ROUNDING, RASTER_UNDERFLOW, T_SLACK};
+use crate::{Aabb, Projection, Raster};
 use std::ops::Range;
 
 type Vector = [f64; 3];
@@ -89,7 +89,7 @@ impl<const L: usize> PixelLanes<L> {
 impl ImageSpace {
     /// The image space of a raster.
     pub fn new(raster: &Raster) -> Self {
-        let vector = |v: accel::Vec3| [0, 1, 2].map(|a| f64::from(v[a]));
+        let vector = |v: crate::Vec3| [0, 1, 2].map(|a| f64::from(v[a]));
         let (forward, right, down) = (vector(raster.forward), vector(raster.right), vector(raster.down));
         let origin = vector(raster.origin);
         let (cols, rows) = (f64::from(raster.cols), f64::from(raster.rows));
@@ -157,8 +157,8 @@ impl ImageSpace {
     }
 
     /// About where a ray of the raster passes the image: column and row, in pixels from its outer corner.
-    pub fn locate(&self, ray: &accel::Ray) -> Option<(f64, f64)> {
-        let vector = |v: accel::Vec3| [0, 1, 2].map(|a| f64::from(v[a]));
+    pub fn locate(&self, ray: &crate::Ray) -> Option<(f64, f64)> {
+        let vector = |v: crate::Vec3| [0, 1, 2].map(|a| f64::from(v[a]));
         let [t, x, y] = match self.projection {
             Projection::Parallel => {
                 let origin = vector(ray.origin);

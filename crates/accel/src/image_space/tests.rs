@@ -1,5 +1,5 @@
 use super::*;
-use accel::Vec3;
+use crate::Vec3;
 use proptest::prelude::*;
 
 /// A 10 × 8 image on the plane z = 0, one pixel a unit, looking along +z.
@@ -138,7 +138,7 @@ proptest! {
                         pixels.rows.contains(&row) && pixels.cols.contains(&col),
                         "ray ({row}, {col}) meets {bounds:?}, but only {pixels:?} may"
                     );
-                    let first = near.max(0.0) * (1.0 - accel::tolerance::T_SLACK);
+                    let first = near.max(0.0) * (1.0 - crate::tolerance::T_SLACK);
                     prop_assert!(f64::from(pixels.near) <= first, "{pixels:?} but t = {near}");
                 }
             }
