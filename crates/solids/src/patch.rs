@@ -13,6 +13,9 @@ pub const WIDTH: f64 = 1.0 / (1u64 << 36) as f64;
 /// What control points are rounded by, relative to the patch's size: far more than 16 products and sums of `f64`.
 const ROUNDING: f64 = 1.0 / (1u64 << 46) as f64;
 
+/// What is as thin as this, relative to the patch's size, is seen edge-on, slanting or not: rounding alone makes it so thick.
+const FLAT: f64 = 1.0 / (1u64 << 49) as f64;
+
 /// Parts looked at; only rays that lie in the patch come to so many.
 const MOST: usize = 1 << 15;
 
@@ -29,6 +32,23 @@ impl Part {
     fn hull(&self) -> [DVec2; 2] {
         let points = self.net.iter().flatten();
         points.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], p| [low.min(*p), high.max(*p)])
+    }
+
+    /// The part in a frame that lies along its longest way. Next to a fold, control points lie along a slanting line: only a frame
+    /// along it tells that the ray passes beside them, and that neither derivative turns about.
+    fn aligned(&self) -> Self {
+        let [first, .., last] = &self.net;
+        let ways = [first[3] - first[0], last[0] - first[0], last[3] - first[0], last[0] - first[3]];
+        let longest = ways.into_iter().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let along = longest.and_then(DVec2::try_normalize).unwrap_or(DVec2::X);
+        let net = self.net.map(|row| row.map(|p| DVec2::new(p.dot(along), along.perp_dot(p))));
+        Self { net, ..*self }
+    }
+
+    /// Whether the ray passes beside all control points on one side, by more than `slack`.
+    fn is_missed(&self, slack: f64) -> bool {
+        let [low, high] = self.hull();
+        low.max_element() > slack || high.min_element() < -slack
     }
 
     /// The steps between neighbouring control points, whose hull thrice holds the derivatives in u or in v.
@@ -149,16 +169,16 @@ impl Sight {
 /// Plane"), and a part that folds nowhere is left to Newton's iteration.
 fn places(patch: &Patch, sight: &Sight, center: DVec3, extent: f64) -> Vec<[f64; 2]> {
     let net = patch.net().map(|row| row.map(|point| sight.distances(point.as_dvec3() - center)));
-    let (slack, small) = (extent * ROUNDING, extent * WIDTH * 0.25);
+    let (slack, small, flat) = (extent * ROUNDING, extent * WIDTH * 0.25, extent * FLAT);
     let mut found = Vec::new();
     let mut waiting = vec![Part { net, from: [0.0; 2], size: [1.0; 2] }];
     let mut looked_at = 0;
     while let Some(part) = waiting.pop() {
-        let [low, high] = part.hull();
-        if low.max_element() > slack || high.min_element() < -slack {
+        if part.is_missed(slack) {
             continue;
         }
         looked_at += 1;
+        let [low, high] = part.hull();
         let extents = high - low;
         // Seen edge-on, all of it: like a triangle in whose plane the ray lies.
         if extents.min_element() <= slack && extents.max_element() > small || looked_at > MOST {
@@ -169,7 +189,12 @@ fn places(patch: &Patch, sight: &Sight, center: DVec3, extent: f64) -> Vec<[f64;
             found.push(of([0.5; 2]));
             continue;
         }
-        let steps = [part.steps(0), part.steps(1)];
+        let aligned = part.aligned();
+        let [low, high] = aligned.hull();
+        if aligned.is_missed(2.0 * slack) || (high - low).min_element() <= flat {
+            continue;
+        }
+        let steps = [aligned.steps(0), aligned.steps(1)];
         if is_one_to_one([&steps[0], &steps[1]])
             && let Some(place) = part.root(small)
             && place.iter().all(|p| (-BESIDE..=1.0 + BESIDE).contains(p))

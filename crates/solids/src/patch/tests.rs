@@ -54,6 +54,44 @@ fn folds_are_hit_twice() {
     assert!(along(0.75) <= 2);
 }
 
+/// Seen so that it is folded along a slanting line, with three crossings, two of them next to the fold.
+#[test]
+fn crossings_beside_a_slanting_fold_are_found() {
+    let net: [[[f32; 3]; 4]; 4] = [
+        [
+            [-0.52082264, 0.30363715, 0.24608302],
+            [-0.12272751, -0.42569625, 0.61142004],
+            [0.44990313, -0.47688568, 0.37420726],
+            [-0.09137952, -0.84592247, -0.5568608],
+        ],
+        [
+            [-0.061694026, -0.7229985, -0.43223727],
+            [0.8825052, 0.41824985, -0.1471926],
+            [0.7294687, -0.5578183, 0.05608952],
+            [0.99046004, 0.07261026, 0.118623614],
+        ],
+        [
+            [0.63752353, 0.34227145, -0.10073769],
+            [0.15008414, -0.568527, -0.73957944],
+            [0.043367743, -0.6741812, -0.8527641],
+            [-0.57255316, -0.4953513, -0.0855695],
+        ],
+        [
+            [-0.059532523, -0.87849104, 0.3344704],
+            [0.8676045, -0.0007597208, 0.022659302],
+            [-0.445091, -0.544515, -0.2585678],
+            [-0.033616304, -0.6077281, -0.010058999],
+        ],
+    ];
+    let patch = Patch::new(net.map(|row| row.map(Vec3::from)));
+    let ray =
+        Ray::new(Vec3::new(0.70150316, -1.0401621, -2.1596968), Vec3::new(-0.65050584, 0.59045, 1.9893811));
+    let found: Vec<f64> = crossings(&patch, &ray).iter().map(|crossing| crossing.t).collect();
+    let known = [1.000_040_791_56, 1.000_055_910_24, 1.027_606_654_78];
+    assert_eq!(found.len(), known.len(), "{found:?}");
+    assert!(found.iter().zip(known).all(|(t, known)| (t - known).abs() < 1e-7), "{found:?}");
+}
+
 fn net() -> impl Strategy<Value = Net> {
     prop::array::uniform4(prop::array::uniform4([-1f32..1.0, -1.0..1.0, -1.0..1.0]))
         .prop_map(|net| net.map(|row| row.map(Vec3::from)))
