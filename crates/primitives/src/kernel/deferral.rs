@@ -20,11 +20,18 @@ pub trait Deferral: Permuted {
     /// What can be told of [`super::Kernel::rays`].
     fn bounds<S: Simd>(s: S, rays: &Many<Self, S>, packed: Packed<'_>, t_max: S::F) -> Bounds<S>;
 
+    /// A row of what is packed beside the corners.
+    const SIZE_ROW: usize;
+
+    /// What is packed there, of triangles in lanes.
+    fn sizes<S: Simd>(s: S, corners: [Vec3Lanes<S>; 3]) -> S::F;
+
     /// What can be told of each ray and the triangle in its own lane, of the lanes `wanted`.
     fn bounds_each<S: Simd>(
         s: S,
         rays: &Many<Self, S>,
         corners: [Vec3Lanes<S>; 3],
+        sizes: S::F,
         wanted: u32,
         t_max: S::F,
     ) -> Bounds<S>;

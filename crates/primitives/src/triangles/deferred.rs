@@ -83,7 +83,12 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
         let mut rays = PairRays::of(s, blocks, pairs, best);
         for at in (0..pairs.len).step_by(S::LANES) {
             let group = rays.group(s, blocks, pairs, at);
-            let bounds = K::bounds_each(s, &group.rays, group.corners, group.wanted, group.t_max);
+            let sizes = if blocks.in_place {
+                K::sizes(s, group.corners)
+            } else {
+                group.row(s, blocks, pairs.block, K::SIZE_ROW)
+            };
+            let bounds = K::bounds_each(s, &group.rays, group.corners, sizes, group.wanted, group.t_max);
             let mut undecided = s.bits(bounds.undecided) & group.wanted;
             if undecided == 0 {
                 continue;
@@ -125,7 +130,8 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
                 return;
             }
             let (corners, wanted) = (blocks.corners_in_place(s, &chosen), u32::MAX >> (32 - len));
-            let bounds = K::bounds_each(s, &many, corners, wanted, s.splat(best.t));
+            let sizes = K::sizes(s, corners);
+            let bounds = K::bounds_each(s, &many, corners, sizes, wanted, s.splat(best.t));
             let mut undecided = s.bits(bounds.undecided) & wanted;
             while let Some(lane) = next_lane(&mut undecided) {
                 blocks.triangles.closest(chosen[lane], ray, best);

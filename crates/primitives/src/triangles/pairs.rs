@@ -4,7 +4,7 @@ use super::{CORNER_ROWS, TriangleBlocks};
 use crate::kernel::{Floats, Kernel, Many, Permuted};
 use accel::{MeshRef, Nearest, Ray};
 use lanes::packet::{Pairs, RayRows, Vec3Lanes};
-use lanes::{BLOCK, EMPTY_SLOT, ROW, Simd};
+use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, Simd};
 
 /// The rays of pairs, prepared.
 pub(super) struct PairRays<K: Kernel, S: Simd> {
@@ -99,6 +99,21 @@ impl<K: Kernel, S: Simd> Group<'_, K, S> {
     }
 }
 
+impl<K: Kernel<Storage = Floats>, S: Simd> Group<'_, K, S> {
+    /// What is packed in a row, of each lane's triangle.
+    #[inline(always)]
+    pub fn row(&self, s: S, blocks: &TriangleBlocks<K>, block: usize, row: usize) -> S::F {
+        look_up(s, blocks.rows(block), K::ROWS, row, s.load_bytes(self.lanes.slots))
+    }
+}
+
+/// What a row of each of the four groups of a block, of `rows` rows each, holds in these slots.
+#[inline(always)]
+fn look_up<S: Simd>(s: S, packed: &[Row], rows: usize, row: usize, slot: S::U) -> S::F {
+    let at = &packed[row..];
+    s.lookup([&at[0], &at[rows], &at[2 * rows], &at[3 * rows]], slot)
+}
+
 impl Lanes<'_> {
     #[inline(always)]
     fn slot(&self, lane: usize) -> usize {
@@ -113,19 +128,22 @@ impl<K: Kernel<Storage = Floats>> TriangleBlocks<'_, K> {
         if self.in_place {
             return self.corners_in_place(s, &self.ids_of(lanes));
         }
-        let slot = s.load_bytes(lanes.slots);
-        let first = block * (BLOCK / ROW) * K::ROWS;
-        let packed = &self.units[first..first + BLOCK / ROW * K::ROWS];
+        let (slot, packed) = (s.load_bytes(lanes.slots), self.rows(block));
         let mut corners = [[s.splat(0.0); 3]; 3];
         for (corner, values) in corners.iter_mut().enumerate() {
             for (axis, value) in values.iter_mut().enumerate() {
                 const { assert!(K::ROWS >= CORNER_ROWS, "the kernel packs corners") };
-                let row = &packed[3 * corner + axis..];
-                let [a, b, c, d] = [&row[0], &row[K::ROWS], &row[2 * K::ROWS], &row[3 * K::ROWS]];
-                *value = s.lookup([a, b, c, d], slot);
+                *value = look_up(s, packed, K::ROWS, 3 * corner + axis, slot);
             }
         }
         corners
+    }
+
+    /// The rows of a block.
+    #[inline(always)]
+    fn rows(&self, block: usize) -> &[Row] {
+        let first = block * (BLOCK / ROW) * K::ROWS;
+        &self.units[first..first + BLOCK / ROW * K::ROWS]
     }
 
     /// The numbers of the triangles; lanes without a pair repeat the first.

@@ -41,7 +41,7 @@ use lanes::packet::RayRows;
 use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
 use lanes::{Row, Scalar, Simd};
 use quotient::Quotient;
-use signs::{Place, meet_at_corner, place, same_point};
+use signs::{Place, in_one_slice_plane, meet_at_corner, place, same_point};
 use std::cmp::Ordering;
 
 /// The exact test.
@@ -111,7 +111,7 @@ impl Kernel for Exact {
     #[cold]
     fn order(ray: &Ray, corners: impl FnOnce() -> [Corners; 2]) -> Ordering {
         let [a, b] = &corners();
-        if a == b {
+        if a == b || in_one_slice_plane(a, b) {
             return Ordering::Equal;
         }
         if meet_at_corner(ray, a, b) {
@@ -177,16 +177,23 @@ impl Deferral for Exact {
         reject::bounds(s, &rays.rays, &rays.span, corners, length, u32::MAX, t_max)
     }
 
+    const SIZE_ROW: usize = LENGTH_ROW;
+
+    #[inline(always)]
+    fn sizes<S: Simd>(s: S, corners: [Vec3Lanes<S>; 3]) -> S::F {
+        reject::lengths(s, corners)
+    }
+
     #[inline(always)]
     fn bounds_each<S: Simd>(
         s: S,
         rays: &SpannedLanes<S>,
         corners: [Vec3Lanes<S>; 3],
+        sizes: S::F,
         wanted: u32,
         t_max: S::F,
     ) -> Bounds<S> {
-        let lengths = reject::lengths(s, corners);
-        reject::bounds(s, &rays.rays, &rays.span, corners, lengths, wanted, t_max)
+        reject::bounds(s, &rays.rays, &rays.span, corners, sizes, wanted, t_max)
     }
 
     #[inline(always)]

@@ -57,6 +57,12 @@ pub(super) fn same_point(a: (&Corners, [bool; 3]), b: (&Corners, [bool; 3])) -> 
     proper && shares(a, b) && shares(b, a)
 }
 
+/// Whether both triangles lie in one plane that is perpendicular to an axis, as a box and the floor it stands on do: a
+/// line that isn't in that plane meets both at one point.
+pub(super) fn in_one_slice_plane(a: &Corners, b: &Corners) -> bool {
+    (0..3).any(|axis| a.iter().chain(b).all(|corner| corner[axis] == a[0][axis]))
+}
+
 /// Whether the ray's line certainly passes through a corner.
 pub(super) fn meets_corner(ray: &Ray, corners: &Corners) -> bool {
     corners.iter().any(|corner| passes(ray, *corner))
@@ -210,6 +216,19 @@ mod tests {
                 });
             assert!(matches!(places[1], Place::Inside(on) if on.contains(&true)), "{places:?}");
         }
+    }
+
+    #[test]
+    fn triangles_of_one_slice_plane_are_told() {
+        let [a, b, c] = [Vec3::Z, Vec3::Z + Vec3::X, Vec3::Z + Vec3::Y];
+        let (apart, tilted) = ([a, b, c].map(|corner| corner + 9.0 * Vec3::X), [a, b, c + Vec3::Z]);
+        assert!(in_one_slice_plane(&[a, b, c], &apart));
+        assert!(!in_one_slice_plane(&[a, b, c], &tilted));
+        assert!(!in_one_slice_plane(&[a, b, c], &[a, b, c].map(|corner| corner + Vec3::Z)));
+        let ray = Ray::new(Vec3::new(0.1, 0.3, -0.7), Vec3::new(0.1, 0.0, 0.9));
+        let wide = [a - 9.0 * Vec3::X, b + 9.0 * Vec3::X, c + 9.0 * Vec3::Y];
+        let t = |corners| intersect(&ray, corners).map(|hit| hit.t);
+        assert!(in_one_slice_plane(&wide, &[a, b, c]) && t(&wide).is_some() && t(&wide) == t(&[a, b, c]));
     }
 
     #[test]
