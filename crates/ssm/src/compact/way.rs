@@ -50,12 +50,16 @@ const UPPER: usize = 4;
 
 impl Frame {
     pub fn new(lattice: &Grid) -> Self {
+        Self::with_inset(lattice, INSET)
+    }
+
+    fn with_inset(lattice: &Grid, inset: f64) -> Self {
         let extent = lattice.bounds().max.as_dvec3() - lattice.bounds().min.as_dvec3();
         let (mut scale, mut first, mut parallel) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (a, n) in lattice.resolution().into_iter().enumerate() {
             let (n, flat) = (f64::from(n), extent[a] <= 0.0);
-            scale[a] = if flat { 0.0 } else { (n * (1.0 - 2.0 * INSET)) as f32 };
-            first[a] = (n * if flat { 0.5 } else { INSET }) as f32;
+            scale[a] = if flat { 0.0 } else { (n * (1.0 - 2.0 * inset)) as f32 };
+            first[a] = (n * if flat { 0.5 } else { inset }) as f32;
             parallel[a] = (n * PARALLEL) as f32;
         }
         Self { lattice: *lattice, scale, first, parallel }
@@ -308,6 +312,34 @@ mod tests {
             let each = rays.iter().enumerate();
             each.map(|(lane, ray)| [all.lane(lane), frame.clip(ray).lane(0)]).collect()
         }
+    }
+
+    /// Ends of rays through a grid of small and large resolutions that lie in no cell, where the grid is shrunk by `inset`.
+    fn outside(inset: f64) -> usize {
+        let mut state = 1u64;
+        let mut number = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f32 / (1 << 24) as f32
+        };
+        let mut outside = 0;
+        for resolution in [[1, 3, 7], [64, 100, 1000], [4096, 2048, 5000]] {
+            let bounds = Aabb { min: Vec3::new(-1.0, 2.0, 0.3), max: Vec3::new(3.0, 5.0, 0.7) };
+            let frame = Frame::with_inset(&Grid::new(bounds, resolution).unwrap(), inset);
+            for _ in 0..20_000 {
+                let [from, to] = [0, 1].map(|_| Vec3::new(number(), number(), number()) * 8.0 - 2.0);
+                let Some(way) = frame.clip(&Ray::new(from, to - from)).lane(0) else { continue };
+                let lies_outside = |s: f32| (0..3).any(|axis| way.cell(s)[axis] >= resolution[axis]);
+                outside += usize::from(lies_outside(0.0)) + usize::from(lies_outside(1.0));
+            }
+        }
+        outside
+    }
+
+    #[test]
+    fn an_inset_too_small_leaves_ends_of_rays_without_a_cell() {
+        assert_eq!(outside(INSET), 0);
+        assert!(outside(0.0) > 1000, "{}", outside(0.0));
+        assert!(outside(INSET / 256.0) > 0);
     }
 
     #[test]
