@@ -42,7 +42,7 @@ pub use corners::Corners;
 pub use footprint::{Footprint, Group, Part, vec_bytes};
 pub use glam::Vec3;
 pub use input::{InputError, Position};
-pub use memory::{available_memory, concatenated, filled, room};
+pub use memory::{available_memory, concatenated, filled, reserved};
 pub use mesh::{Mesh, MeshRef};
 pub use objects::{Bounds, Objects};
 pub use ray::{Hit, Nearest, Ray, RayError, Surface};

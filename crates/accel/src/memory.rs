@@ -17,7 +17,7 @@ pub fn filled<T: Clone + Send>(value: T, len: usize) -> Vec<T> {
 ///
 /// # Errors
 /// [`BuildError::TooLarge`] if the system doesn't give it.
-pub fn room<T>(structure: &str, len: usize) -> Result<Vec<T>, BuildError> {
+pub fn reserved<T>(structure: &str, len: usize) -> Result<Vec<T>, BuildError> {
     let mut room = Vec::new();
     if room.try_reserve_exact(len).is_ok() {
         return Ok(room);
@@ -124,9 +124,9 @@ mod tests {
 
     #[test]
     fn what_no_system_has_is_an_error() {
-        assert!(room::<u64>("x", 1000).unwrap().capacity() >= 1000);
+        assert!(reserved::<u64>("x", 1000).unwrap().capacity() >= 1000);
         for len in [1 << 60, usize::MAX] {
-            let error = room::<u64>("x", len).unwrap_err();
+            let error = reserved::<u64>("x", len).unwrap_err();
             assert!(matches!(error, BuildError::TooLarge { bytes, limit, .. } if bytes > limit), "{error}");
         }
     }

@@ -159,14 +159,14 @@ impl<I: Id> Cells<I> {
                 }
             }
         })?;
-        let mut counters = accel::room(ID, cells)?;
+        let mut counters = accel::reserved(ID, cells)?;
         counters.extend(lists.offsets.windows(2).map(|ends| I::narrow(ends[1] - ends[0])));
         let counters = counters.into_boxed_slice();
         let ids = if size_of::<I>() == size_of::<u32>() {
             // In the same memory.
             lists.references.into_iter().map(I::narrow).collect()
         } else {
-            let mut ids = accel::room(ID, lists.references.len())?;
+            let mut ids = accel::reserved(ID, lists.references.len())?;
             ids.extend(lists.references.into_iter().map(I::narrow));
             ids.into_boxed_slice()
         };

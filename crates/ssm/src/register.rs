@@ -53,7 +53,7 @@ impl Limit {
     pub fn blank<T: Default>(self, len: usize, cancel: Cancel) -> Result<Vec<T>, BuildError> {
         // The system clears each page at the first touch, which takes a second for a few gigabytes.
         const PIECE: usize = 1 << 22;
-        let mut blank = accel::room(self.structure, len)?;
+        let mut blank = accel::reserved(self.structure, len)?;
         while blank.len() < len {
             cancel.check(self.structure)?;
             blank.resize_with(len.min(blank.len() + PIECE), T::default);

@@ -28,7 +28,7 @@ impl Axis {
     /// [`BuildError::TooLarge`] if memory doesn't hold them.
     pub fn try_new(slices: usize, objects: usize) -> Result<Self, BuildError> {
         let len = slices * words_of(objects);
-        let mut words = accel::room(super::ID, len)?;
+        let mut words = accel::reserved(super::ID, len)?;
         words.resize(len, 0);
         Ok(Self { objects, slices, words })
     }

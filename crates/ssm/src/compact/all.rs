@@ -1,13 +1,13 @@
 //! All that a ray may meet, however far away.
 
-use super::field::Visit;
+use super::bricks::Visit;
 use super::order::GROUP;
 use super::{Built, Cells};
 use crate::once::keep_once;
 use accel::Ray;
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 
-/// Gathers the groups of all cells on a way.
+/// Gathers the groups of all cells on a segment.
 struct Gather<'a> {
     cells: &'a Cells,
     groups: &'a mut Vec<u32>,
@@ -36,8 +36,8 @@ impl<O: PackedObjects> Built<O> {
         if self.apart {
             groups.push(0);
         }
-        if let Some(way) = self.field.clip(ray).lane(0) {
-            self.field.walk(&way, 1.0, &mut Gather { cells: &self.cells, groups: &mut groups });
+        if let Some(segment) = self.bricks.clip(ray).lane(0) {
+            self.bricks.walk(&segment, 1.0, &mut Gather { cells: &self.cells, groups: &mut groups });
         }
         keep_once(&mut groups, 0);
         let slots = groups.iter().flat_map(|group| *group as usize * GROUP..(*group as usize + 1) * GROUP);

@@ -2,7 +2,7 @@
 //! grids of D. Jevans and B. Wyvill, *Adaptive Voxel Subdivision for Ray Tracing*, Graphics
 //! Interface 1989, in the layout of the grid itself.
 
-use super::field::{BRICK, EDGE, Field, at_level, places};
+use super::bricks::{BRICK, BrickGrid, EDGE, at_level, places};
 use super::order::GROUP;
 use super::{BRICK_BYTES, Cells};
 use crate::register::Limit;
@@ -55,14 +55,14 @@ impl Allowance<'_> {
 /// [`BuildError::TooLarge`] if the way to the result would exceed the limit, [`BuildError::Cancelled`].
 pub(super) fn divide<B: Bounds>(
     cells: Cells,
-    field: &mut Field,
+    bricks: &mut BrickGrid,
     objects: &B,
     order: &[u32],
     gain: f32,
     (limit, cancel): (Limit, Cancel),
 ) -> Result<Cells, BuildError> {
     let own = cells.positions.len() - 1;
-    if field.levels() == 0 {
+    if bricks.levels() == 0 {
         return Ok(cells);
     }
     let least = gain.ceil() as u32 + 1;
@@ -72,9 +72,9 @@ pub(super) fn divide<B: Bounds>(
         return Ok(cells);
     }
     let held = limit.less(order.len() as u128 * size_of::<Slices>() as u128)?;
-    let slices = Slices::of_all(field, objects, order, (limit, cancel))?;
+    let slices = Slices::of_all(bricks, objects, order, (limit, cancel))?;
     // In the end there are the undivided cells, the trees, and both of them joined.
-    let undivided = field.occupied.len() as u128 * (BRICK_BYTES + 8) + cells.references.len() as u128 * 4;
+    let undivided = bricks.occupied.len() as u128 * (BRICK_BYTES + 8) + cells.references.len() as u128 * 4;
     let bytes = held.bytes.saturating_sub(2 * undivided) / 2;
     let allowance = Allowance { bytes, taken: AtomicU64::new(0), cancel };
     let trees: Vec<(u32, Tree)> = crowded
@@ -83,14 +83,14 @@ pub(super) fn divide<B: Bounds>(
             if allowance.is_over() {
                 return None;
             }
-            let (place, groups) = (field.place(cell), cells.list(cell as usize));
-            if !is_worth(groups, &slices, place, field.levels(), gain) {
+            let (place, groups) = (bricks.place(cell), cells.list(cell as usize));
+            if !is_worth(groups, &slices, place, bricks.levels(), gain) {
                 return None;
             }
-            let members = members(groups, &slices, place, field.levels());
+            let members = members(groups, &slices, place, bricks.levels());
             let members: Vec<&Member> = members.iter().collect();
             let mut tree = Tree::default();
-            let grown = tree.grow(&members, place, field.levels(), gain, &allowance);
+            let grown = tree.grow(&members, place, bricks.levels(), gain, &allowance);
             grown.then(|| (cell, tree.trimmed()))
         })
         .collect();
@@ -107,7 +107,7 @@ pub(super) fn divide<B: Bounds>(
     // Positions have 32 bits.
     let numbered = Limit { bytes: limit.bytes.min(u128::from(u32::MAX) * 4), ..limit };
     numbered.check(references * 4)?;
-    join(&cells, field, trees, (limit, cancel))
+    join(&cells, bricks, trees, (limit, cancel))
 }
 
 /// Where an object lies, in slices of the finest level, of which there are no more than 16 bits number; nowhere in an empty slot.
@@ -119,7 +119,7 @@ impl Slices {
 
     /// Those of the object in each slot of `order`.
     fn of_all<B: Bounds>(
-        field: &Field,
+        bricks: &BrickGrid,
         objects: &B,
         order: &[u32],
         (limit, cancel): (Limit, Cancel),
@@ -127,7 +127,7 @@ impl Slices {
         const { assert!(Grid::MOST_SLICES <= u16::MAX as u32) };
         let of = |object: &u32| match *object {
             EMPTY_SLOT => Self::NOWHERE,
-            object => Self(field.slices(&objects.bounds(object)).map(|r| [r.start as u16, r.end as u16])),
+            object => Self(bricks.slices(&objects.bounds(object)).map(|r| [r.start as u16, r.end as u16])),
         };
         let mut all: Vec<Self> = limit.blank(order.len(), cancel)?;
         all.par_iter_mut().zip(order).with_min_len(1 << 12).for_each(|(slices, object)| *slices = of(object));
@@ -292,26 +292,27 @@ fn spared(groups: &[(u32, u64)]) -> f32 {
 /// The grid's own cells and behind them the bricks of all trees.
 fn join(
     cells: &Cells,
-    field: &mut Field,
+    bricks: &mut BrickGrid,
     trees: Vec<(u32, Tree)>,
     (limit, cancel): (Limit, Cancel),
 ) -> Result<Cells, BuildError> {
-    let bricks = field.occupied.len();
+    let own_bricks = bricks.occupied.len();
     let within: usize = trees.iter().map(|(_, tree)| tree.occupied.len()).sum();
     let references: usize = trees.iter().map(|(_, tree)| tree.references.len()).sum();
     let kept: usize = cells.references.len()
         - trees.iter().map(|(cell, _)| cells.length(*cell as usize) as usize - 1).sum::<usize>();
     let id = limit.structure;
-    let (mut occupied, mut divided) = (accel::room(id, bricks + within)?, accel::room(id, bricks + within)?);
+    let (mut occupied, mut divided) =
+        (accel::reserved(id, own_bricks + within)?, accel::reserved(id, own_bricks + within)?);
     let mut joined = Cells {
-        positions: accel::room(id, (bricks + within) * BRICK + 1)?,
-        references: accel::room(id, kept + references)?,
+        positions: accel::reserved(id, (own_bricks + within) * BRICK + 1)?,
+        references: accel::reserved(id, kept + references)?,
     };
-    occupied.extend_from_slice(&field.occupied);
-    divided.resize(bricks, 0u64);
+    occupied.extend_from_slice(&bricks.occupied);
+    divided.resize(own_bricks, 0u64);
     let mut own = trees.iter();
     let mut coming = own.next();
-    let mut first_brick = bricks as u32;
+    let mut first_brick = own_bricks as u32;
     for cell in 0..cells.positions.len() - 1 {
         if cell % SOME == 0 {
             cancel.check(id)?;
@@ -339,8 +340,8 @@ fn join(
         joined.references.append(&mut tree.references);
     }
     joined.positions.push(joined.references.len() as u32);
-    field.occupied = occupied.into_boxed_slice();
-    field.divided = divided.into_boxed_slice();
+    bricks.occupied = occupied.into_boxed_slice();
+    bricks.divided = divided.into_boxed_slice();
     Ok(joined)
 }
 

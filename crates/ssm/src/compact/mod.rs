@@ -1,12 +1,12 @@
 //! `ssm`: the compact grid.
 
 mod all;
+mod bricks;
 mod divide;
-mod field;
 mod order;
+mod segment;
 mod sort;
 mod trace;
-mod way;
 
 use crate::register::{Limit, register};
 use crate::resolution::Resolution;
@@ -17,11 +17,11 @@ use accel::{
     Aabb, Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet,
     Scene, Workload, vec_bytes,
 };
-use field::{BRICK, Field};
+use bricks::{BRICK, BrickGrid};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 use order::{GROUP, Order};
 use primitives::WithObjects;
-use way::UnitBox;
+use segment::UnitBox;
 
 const ID: &str = "ssm";
 
@@ -121,7 +121,7 @@ impl Cells {
 struct Built<O: PackedObjects> {
     settings: Settings,
     grid: Grid,
-    field: Field,
+    bricks: BrickGrid,
     cells: Cells,
     /// The boxes of all groups.
     boxes: Vec<UnitBox>,
@@ -142,7 +142,7 @@ const BRICK_BYTES: u128 = 4 * BRICK as u128 + 8;
 /// The cells of a grid over objects, and the order in which the objects are packed.
 struct Laid {
     grid: Grid,
-    field: Field,
+    bricks: BrickGrid,
     cells: Cells,
     boxes: Vec<UnitBox>,
     slots: Vec<u32>,
@@ -161,14 +161,14 @@ impl Laid {
         let Order { slots, apart, bounds } = order::order(objects)?;
         let others = slots.len() - if apart { GROUP } else { 0 };
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, others)?;
-        let mut field = Field::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
+        let mut bricks = BrickGrid::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
         let copy = copy(slots.len());
         let bytes_of_boxes = slots.len() / GROUP * size_of::<UnitBox>();
         let limit = Limit::of(ID, settings).less(copy + (slots.len() * 4 + bytes_of_boxes) as u128)?;
-        let bricks = limit.cells(field.bricks() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
+        let count = limit.cells(bricks.count() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
         let groups = (slots.len() / GROUP) as u32;
-        let bytes = |references: u64| bricks as u128 * BRICK_BYTES + 4 * u128::from(references);
-        let lists = register(bricks * BRICK, groups, limit, cancel, bytes, |group, found| {
+        let bytes = |references: u64| count as u128 * BRICK_BYTES + 4 * u128::from(references);
+        let lists = register(count * BRICK, groups, limit, cancel, bytes, |group, found| {
             if apart && group == 0 {
                 return;
             }
@@ -177,31 +177,31 @@ impl Laid {
             let mut slices = [const { [0..0, 0..0, 0..0] }; GROUP];
             let mut len = 0;
             for (slices, object) in slices.iter_mut().zip(held) {
-                *slices = field.slices(&objects.bounds(*object));
+                *slices = bricks.slices(&objects.bounds(*object));
                 len += 1;
             }
-            field.cells(&slices[..len], found);
+            bricks.cells(&slices[..len], found);
         })?;
         let mut cells = Cells { positions: lists.offsets, references: lists.references };
-        let mut occupied: Vec<u64> = limit.blank(bricks, cancel)?;
+        let mut occupied: Vec<u64> = limit.blank(count, cancel)?;
         let ends = cells.positions.par_windows(BRICK + 1).step_by(BRICK);
         occupied.par_iter_mut().zip(ends).for_each(|(bits, ends)| {
             *bits = (0..BRICK).fold(0, |bits, cell| bits | u64::from(ends[cell] != ends[cell + 1]) << cell);
         });
-        field.occupied = occupied.into_boxed_slice();
+        bricks.occupied = occupied.into_boxed_slice();
         if let Some(gain) = ssm.divide {
-            cells = divide::divide(cells, &mut field, objects, &slots, gain, (limit, cancel))?;
+            cells = divide::divide(cells, &mut bricks, objects, &slots, gain, (limit, cancel))?;
         }
-        let boxes = boxes(objects, &field, &slots);
-        Ok(Self { grid, field, cells, boxes, slots, apart })
+        let boxes = boxes(objects, &bricks, &slots);
+        Ok(Self { grid, bricks, cells, boxes, slots, apart })
     }
 }
 
 /// The boxes of the groups of 16 slots.
-fn boxes<B: Bounds>(objects: &B, field: &Field, slots: &[u32]) -> Vec<UnitBox> {
+fn boxes<B: Bounds>(objects: &B, bricks: &BrickGrid, slots: &[u32]) -> Vec<UnitBox> {
     let of_group = |slots: &[u32]| {
         let held = slots.iter().filter(|object| **object != EMPTY_SLOT);
-        field.unit_box(&held.fold(Aabb::EMPTY, |hull, object| hull.union(objects.bounds(*object))))
+        bricks.unit_box(&held.fold(Aabb::EMPTY, |hull, object| hull.union(objects.bounds(*object))))
     };
     slots.par_chunks(GROUP).with_min_len(1 << 8).map(of_group).collect()
 }
@@ -209,11 +209,11 @@ fn boxes<B: Bounds>(objects: &B, field: &Field, slots: &[u32]) -> Vec<UnitBox> {
 impl<O: PackedObjects> Built<O> {
     fn new(objects: O, ssm: &Ssm, cancel: Cancel) -> Result<Self, BuildError> {
         let settings = ssm.settings;
-        let Laid { grid, field, cells, boxes, slots, apart } =
+        let Laid { grid, bricks, cells, boxes, slots, apart } =
             Laid::new(&objects.shape(), ssm, O::bytes_of_blocks, cancel)?;
         cancel.check(ID)?;
         let blocks = objects.blocks(&slots);
-        let mut built = Self { settings, grid, field, cells, boxes, apart, blocks, sort: false, objects };
+        let mut built = Self { settings, grid, bricks, cells, boxes, apart, blocks, sort: false, objects };
         built.sort = built.footprint().total() > CACHED;
         Ok(built)
     }
@@ -249,16 +249,16 @@ impl<O: PackedObjects> Accel for Built<O> {
         Footprint::default()
             .structure("cells", vec_bytes(&self.cells.positions))
             .structure("references", vec_bytes(&self.cells.references))
-            .structure("occupied", size_of_val(&*self.field.occupied))
-            .structure("divided", size_of_val(&*self.field.divided))
+            .structure("occupied", size_of_val(&*self.bricks.occupied))
+            .structure("divided", size_of_val(&*self.bricks.divided))
             .structure("boxes", vec_bytes(&self.boxes))
             .geometry_copy("blocks", self.blocks.bytes())
     }
 
     fn plan(&self) -> String {
         let [x, y, z] = self.grid.resolution();
-        let divided: u32 = self.field.divided.iter().map(|bits| bits.count_ones()).sum();
-        let filled: u32 = self.field.occupied.iter().map(|bits| bits.count_ones()).sum();
+        let divided: u32 = self.bricks.divided.iter().map(|bits| bits.count_ones()).sum();
+        let filled: u32 = self.bricks.occupied.iter().map(|bits| bits.count_ones()).sum();
         format!(
             "{x}x{y}x{z} cells by {}, the largest objects {}, {divided} cells divided into 4x4x4; {} cells hold {} references to groups of {GROUP}",
             self.settings.resolution,

@@ -44,7 +44,7 @@ pub(super) fn order<B: Bounds>(objects: &B) -> Result<Order, BuildError> {
     let apart = large.len().next_multiple_of(GROUP);
     let others = objects.len() - large.len();
     let len = apart + others.next_multiple_of(GROUP);
-    let mut slots = accel::room(ID, len)?;
+    let mut slots = accel::reserved(ID, len)?;
     slots.extend_from_slice(&large);
     slots.resize(apart, EMPTY_SLOT);
     let keyed = morton(objects, &bounds, |id| large.binary_search(&id).is_err())?;
@@ -72,7 +72,7 @@ fn morton<B: Bounds>(
         };
         spread_axis(0) | spread_axis(1) | spread_axis(2)
     };
-    let mut keyed = accel::room(ID, objects.len())?;
+    let mut keyed = accel::reserved(ID, objects.len())?;
     keyed.resize(objects.len(), (u64::MAX, 0));
     keyed.par_iter_mut().with_min_len(1 << 12).enumerate().for_each(|(id, place)| {
         let id = id as u32;

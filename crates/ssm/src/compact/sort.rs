@@ -1,7 +1,7 @@
 //! An order of rays in which neighbours go similar ways, so that they find in the caches what the
 //! one before brought there.
 
-use super::way::greater;
+use super::segment::greater;
 use accel::{Aabb, Ray};
 use lanes::packet::rows;
 use lanes::{Level, ROW, Simd, Task};

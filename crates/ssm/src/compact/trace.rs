@@ -1,8 +1,8 @@
 //! Tracing: one ray, or batches on all threads of the current pool.
 
-use super::field::Visit;
+use super::bricks::Visit;
 use super::order::GROUP;
-use super::way::{ClippedSegment, UnitBox};
+use super::segment::{ClippedSegment, UnitBox};
 use super::{Built, Cells, sort};
 use accel::parallel::for_each_chunk;
 use accel::{Count, Counters, Nearest, NoCount, Ray, RaySet};
@@ -34,7 +34,7 @@ struct TraversalState<'a, S, B: Blocks, C, const ANY: bool> {
     boxes: &'a [UnitBox],
     blocks: &'a B,
     ray: B::One,
-    way: ClippedSegment,
+    segment: ClippedSegment,
     /// Up to where boxes are looked at.
     limit: f32,
     met: Mailbox,
@@ -66,7 +66,7 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for TraversalState<'_,
             self.count.candidates(1);
             let known = self.met.contains_or_insert(group);
             // Both, for one jump is mispredicted less often than two.
-            if known | !self.way.meets(&self.boxes[group as usize], self.limit) {
+            if known | !self.segment.meets(&self.boxes[group as usize], self.limit) {
                 continue;
             }
             self.test(group);
@@ -75,7 +75,7 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for TraversalState<'_,
             }
         }
         if self.best.t < before {
-            self.limit = self.limit.min(self.way.limit(self.best.t));
+            self.limit = self.limit.min(self.segment.limit(self.best.t));
         }
         self.limit
     }
@@ -105,10 +105,10 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { built, rays, found, count } = self;
-        let Built { field, cells, boxes, blocks, .. } = built;
+        let Built { bricks, cells, boxes, blocks, .. } = built;
         for (rays, found) in rays.chunks(ROW).zip(found.chunks_mut(ROW)) {
-            let ways =
-                if let [ray] = rays { field.clip(ray) } else { field.clip_rows(simd, &rows(simd, rays)) };
+            let segments =
+                if let [ray] = rays { bricks.clip(ray) } else { bricks.clip_rows(simd, &rows(simd, rays)) };
             for (lane, (ray, found)) in rays.iter().zip(found).enumerate() {
                 let mut state = TraversalState::<_, _, _, ANY> {
                     simd,
@@ -116,7 +116,7 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
                     boxes,
                     blocks,
                     ray: blocks.one(ray),
-                    way: ClippedSegment::NOWHERE,
+                    segment: ClippedSegment::NOWHERE,
                     limit: ClippedSegment::LIMIT,
                     met: Mailbox([u32::MAX; 16]),
                     best: Nearest::new(ray.t_max),
@@ -126,11 +126,11 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
                     state.test(0);
                 }
                 if !(ANY && state.best.object != Nearest::NONE)
-                    && let Some(way) = ways.lane(lane)
+                    && let Some(segment) = segments.lane(lane)
                 {
-                    state.way = way;
-                    state.limit = state.limit.min(way.limit(state.best.t));
-                    field.walk(&way, state.limit.min(1.0), &mut state);
+                    state.segment = segment;
+                    state.limit = state.limit.min(segment.limit(state.best.t));
+                    bricks.walk(&segment, state.limit.min(1.0), &mut state);
                 }
                 blocks.resolve(&state.ray, &mut state.best);
                 *found = state.best;

@@ -2,7 +2,7 @@
 //! walk of a ray through them that steps over empty bricks at once. A cell may be divided again into a
 //! brick of its own.
 
-use super::way::{ClippedSegment, Frame, SegmentRows, UnitBox, greater};
+use super::segment::{ClippedSegment, Frame, SegmentRows, UnitBox, greater};
 use crate::register::Word;
 use accel::grid::{Grid, RayRows};
 use accel::{Aabb, Ray};
@@ -21,7 +21,7 @@ const MOST_LEVELS: usize = 7;
 
 /// How the cells lie, and which of them hold anything.
 #[derive(Debug)]
-pub(super) struct Field {
+pub(super) struct BrickGrid {
     /// Slices on each axis, of the finest level.
     lattice: Grid,
     frame: Frame,
@@ -46,7 +46,7 @@ pub(super) trait Visit {
     fn step(&mut self);
 }
 
-impl Field {
+impl BrickGrid {
     /// The lattice of a grid whose cells may be divided so often, or less where slices
     /// would become too thin.
     pub fn new(grid: &Grid, levels: u32) -> Self {
@@ -65,7 +65,7 @@ impl Field {
     }
 
     /// Number of bricks of the grid itself.
-    pub fn bricks(&self) -> u128 {
+    pub fn count(&self) -> u128 {
         self.bricks.iter().map(|n| u128::from(*n)).product()
     }
 
@@ -143,20 +143,20 @@ impl Field {
         self.frame.clip_rows(s, rays)
     }
 
-    /// Visits the occupied cells on a way up to s = `limit`, at most 1, in order.
+    /// Visits the occupied cells on a segment up to s = `limit`, at most 1, in order.
     #[inline(always)]
-    pub fn walk<V: Visit>(&self, way: &ClippedSegment, mut limit: f32, visit: &mut V) {
+    pub fn walk<V: Visit>(&self, segment: &ClippedSegment, mut limit: f32, visit: &mut V) {
         let [bx, by, _] = self.bricks;
         let top = SHIFT * self.levels;
         let edge = top + SHIFT;
-        let mut brick = way.cell(0.0).map(|c| c >> edge);
+        let mut brick = segment.cell(0.0).map(|c| c >> edge);
         let mut enter = 0f32;
         loop {
             visit.step();
             let index = (brick[2] * by + brick[1]) * bx + brick[0];
             let mut bits = self.occupied[index as usize];
             if bits == 0 {
-                let mut steps = way.from(brick, edge);
+                let mut steps = segment.from(brick, edge);
                 enter = greater(steps.advance(), enter);
                 if enter > limit {
                     return;
@@ -167,7 +167,7 @@ impl Field {
             let mut node = index;
             let mut parents = [0u32; MOST_LEVELS];
             let mut shift = top;
-            let mut cells = way.from(way.cell_within(enter, shift, brick), shift);
+            let mut cells = segment.from(segment.cell_within(enter, shift, brick), shift);
             'node: loop {
                 visit.step();
                 let cell = cells.slice;
@@ -180,7 +180,7 @@ impl Field {
                         parents[(shift / SHIFT) as usize] = node;
                         node = visit.brick(number);
                         bits = self.occupied[node as usize];
-                        cells = way.from(way.cell_within(enter, shift, cell), shift);
+                        cells = segment.from(segment.cell_within(enter, shift, cell), shift);
                         continue;
                     }
                     limit = limit.min(visit.cell(number));
@@ -204,7 +204,7 @@ impl Field {
                     node = parents[(shift / SHIFT) as usize];
                     shift += SHIFT;
                 }
-                cells = way.from(next, shift);
+                cells = segment.from(next, shift);
                 bits = self.occupied[node as usize];
             }
         }

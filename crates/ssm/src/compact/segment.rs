@@ -14,7 +14,7 @@ pub(super) struct Frame {
     scale: [f32; 3],
     /// The place of the lower bounds, in cells.
     first: [f32; 3],
-    /// A way that moves fewer cells than this along an axis counts as parallel to its slices.
+    /// A segment that moves fewer cells than this along an axis counts as parallel to its slices.
     parallel: [f32; 3],
 }
 
@@ -32,7 +32,7 @@ pub(super) struct ClippedSegment {
     forward: [u32; 3],
     /// Where it starts in the grid's unit coordinates.
     unit_start: [f32; 3],
-    /// One over the way in unit coordinates, finite.
+    /// One over its length in unit coordinates, finite.
     unit_inverse: [f32; 3],
     /// The sides by which it enters boxes.
     near: [u32; 3],
@@ -169,25 +169,25 @@ impl SegmentRows {
         if !self.met[lane] {
             return None;
         }
-        let mut way = ClippedSegment { span: self.spans[lane], ..ClippedSegment::NOWHERE };
+        let mut segment = ClippedSegment { span: self.spans[lane], ..ClippedSegment::NOWHERE };
         for axis in 0..3 {
-            way.start[axis] = self.start[axis][lane];
-            way.delta[axis] = self.delta[axis][lane];
-            way.scale[axis] = self.scale[axis][lane];
-            way.offset[axis] = self.offset[axis][lane];
-            way.unit_start[axis] = self.unit_start[axis][lane];
-            way.unit_inverse[axis] = self.unit_inverse[axis][lane];
-            let backward = way.delta[axis] < 0.0;
-            way.step[axis] = if backward { u32::MAX } else { 1 };
-            way.forward[axis] = u32::from(!backward);
-            way.near[axis] = axis as u32 + if backward { UPPER as u32 } else { 0 };
+            segment.start[axis] = self.start[axis][lane];
+            segment.delta[axis] = self.delta[axis][lane];
+            segment.scale[axis] = self.scale[axis][lane];
+            segment.offset[axis] = self.offset[axis][lane];
+            segment.unit_start[axis] = self.unit_start[axis][lane];
+            segment.unit_inverse[axis] = self.unit_inverse[axis][lane];
+            let backward = segment.delta[axis] < 0.0;
+            segment.step[axis] = if backward { u32::MAX } else { 1 };
+            segment.forward[axis] = u32::from(!backward);
+            segment.near[axis] = axis as u32 + if backward { UPPER as u32 } else { 0 };
         }
-        Some(way)
+        Some(segment)
     }
 }
 
 impl ClippedSegment {
-    /// A way of a ray that does not meet the grid.
+    /// A segment of a ray that does not meet the grid.
     pub const NOWHERE: Self = Self {
         start: [0.0; 3],
         delta: [0.0; 3],
@@ -253,7 +253,7 @@ impl ClippedSegment {
     }
 }
 
-/// A way from slice to slice, of one thickness. Each step adds its rounding: no more than four in a row along an axis.
+/// Steps from slice to slice, of one thickness. Each step adds its rounding: no more than four in a row along an axis.
 #[derive(Clone, Copy)]
 pub(super) struct Steps {
     /// Where it is.
@@ -300,7 +300,7 @@ mod tests {
     use lanes::packet::rows;
     use lanes::{Portable, Task};
 
-    /// The way of each ray, clipped with others and alone.
+    /// The segment of each ray, clipped with others and alone.
     struct Both<'a>(&'a Frame, &'a [Ray]);
 
     impl Task for Both<'_> {
@@ -327,8 +327,8 @@ mod tests {
             let frame = Frame::with_inset(&Grid::new(bounds, resolution).unwrap(), inset);
             for _ in 0..20_000 {
                 let [from, to] = [0, 1].map(|_| Vec3::new(number(), number(), number()) * 8.0 - 2.0);
-                let Some(way) = frame.clip(&Ray::new(from, to - from)).lane(0) else { continue };
-                let lies_outside = |s: f32| (0..3).any(|axis| way.cell(s)[axis] >= resolution[axis]);
+                let Some(segment) = frame.clip(&Ray::new(from, to - from)).lane(0) else { continue };
+                let lies_outside = |s: f32| (0..3).any(|axis| segment.cell(s)[axis] >= resolution[axis]);
                 outside += usize::from(lies_outside(0.0)) + usize::from(lies_outside(1.0));
             }
         }
@@ -355,9 +355,11 @@ mod tests {
                 )
             })
             .collect();
-        let ways = Both(&frame, &rays).run(Portable);
-        assert!(ways.iter().any(|[all, _]| all.is_some()) && ways.iter().any(|[all, _]| all.is_none()));
-        for [all, alone] in ways {
+        let segments = Both(&frame, &rays).run(Portable);
+        assert!(
+            segments.iter().any(|[all, _]| all.is_some()) && segments.iter().any(|[all, _]| all.is_none())
+        );
+        for [all, alone] in segments {
             assert_eq!(format!("{all:?}"), format!("{alone:?}"));
         }
     }
@@ -369,10 +371,10 @@ mod tests {
         let at =
             |x: f32| frame.unit_box(&Aabb { min: Vec3::new(x, 3.0, 3.0), max: Vec3::new(x + 1.0, 4.0, 4.0) });
         for (from, direction) in [(-1.0, Vec3::X), (9.0, -Vec3::X), (-1.0, Vec3::new(1.0, 1e-30, -1e-30))] {
-            let way = frame.clip(&Ray::new(Vec3::new(from, 3.5, 4.0), direction)).lane(0).unwrap();
-            assert!(way.meets(&at(4.0), 1.0) && !way.meets(&at(4.0), 0.25));
+            let segment = frame.clip(&Ray::new(Vec3::new(from, 3.5, 4.0), direction)).lane(0).unwrap();
+            assert!(segment.meets(&at(4.0), 1.0) && !segment.meets(&at(4.0), 0.25));
             let beside = Aabb { min: Vec3::new(4.0, 4.5, 3.0), max: Vec3::new(5.0, 5.0, 5.0) };
-            assert!(!way.meets(&frame.unit_box(&beside), 1.0));
+            assert!(!segment.meets(&frame.unit_box(&beside), 1.0));
         }
     }
 }
