@@ -71,10 +71,10 @@ const FAULTS: [Fault; 11] = [
     },
     Fault {
         target: "structures",
-        what: "ssm: a group is taken for met where another one was",
-        file: "crates/ssm/src/compact/trace.rs",
-        text: "std::mem::replace(place, group) == group",
-        replaced: "std::mem::replace(place, group) != u32::MAX",
+        what: "ssm: an object is not registered in its last cell",
+        file: "crates/ssm/src/compact/bricks.rs",
+        text: "((range.end - 1) >> (SHIFT * levels)) + 1",
+        replaced: "((range.end - 1) >> (SHIFT * levels)).max((range.start >> (SHIFT * levels)) + 1)",
     },
     Fault {
         target: "structures",
