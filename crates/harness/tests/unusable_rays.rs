@@ -5,6 +5,8 @@ use accel::{Accel, Ray, RaySet, Vec3, Workload};
 use harness::registry;
 use primitives::KernelId;
 use scenes::SceneSpec;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
 
 fn unusable() -> Vec<Ray> {
     let inside = Vec3::splat(0.01);
@@ -23,8 +25,21 @@ fn unusable() -> Vec<Ray> {
     rays
 }
 
+/// A walk without an end is a failure that says so, not a test without an end.
+const PATIENCE: Duration = Duration::from_secs(120);
+
 #[test]
 fn every_walk_ends_and_no_triangle_is_hit() {
+    let (ended, end) = mpsc::channel();
+    let walks = std::thread::spawn(move || {
+        walk();
+        ended.send(()).unwrap();
+    });
+    assert_ne!(end.recv_timeout(PATIENCE), Err(RecvTimeoutError::Timeout), "a walk does not end");
+    walks.join().unwrap();
+}
+
+fn walk() {
     let scene = scenes::load(&"small-1k".parse::<SceneSpec>().unwrap()).unwrap();
     let rays = unusable();
     let list = RaySet::List(rays.clone());

@@ -120,13 +120,14 @@ impl Frame {
             let scale = s.splat(self.scale[axis]);
             let start = s.add(s.mul(unit_start[axis], scale), s.splat(self.first[axis]));
             let delta = s.mul(unit_delta[axis], scale);
-            let parallel = s.lt(s.abs(delta), s.splat(self.parallel[axis]));
+            // NaN, of rays without a direction, moves nowhere: walks end for every plane lies at infinity.
+            let moves = s.le(s.splat(self.parallel[axis]), s.abs(delta));
             let per_cell = s.div(one, delta);
             let offset = s.sub(zero, s.mul(start, per_cell));
             s.store(start, &mut rows.start[axis][at..]);
             s.store(delta, &mut rows.delta[axis][at..]);
-            s.store(s.select(parallel, zero, per_cell), &mut rows.scale[axis][at..]);
-            s.store(s.select(parallel, s.splat(f32::INFINITY), offset), &mut rows.offset[axis][at..]);
+            s.store(s.select(moves, per_cell, zero), &mut rows.scale[axis][at..]);
+            s.store(s.select(moves, offset, s.splat(f32::INFINITY)), &mut rows.offset[axis][at..]);
             let shortest = s.select(s.le(zero, unit_delta[axis]), least, s.sub(zero, least));
             let long = s.le(least, s.abs(unit_delta[axis]));
             let inverse = s.div(one, s.select(long, unit_delta[axis], shortest));
@@ -343,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn ways_are_the_same_alone_and_among_others() {
+    fn segments_are_the_same_alone_and_among_others() {
         let bounds = Aabb { min: Vec3::new(-1.0, 2.0, 0.0), max: Vec3::new(3.0, 5.0, 0.0) };
         let frame = Frame::new(&Grid::new(bounds, [16, 4, 4]).unwrap());
         let rays: Vec<Ray> = (0..ROW)
@@ -361,6 +362,18 @@ mod tests {
         );
         for [all, alone] in segments {
             assert_eq!(format!("{all:?}"), format!("{alone:?}"));
+        }
+    }
+
+    #[test]
+    fn what_has_no_direction_meets_no_plane() {
+        let bounds = Aabb { min: Vec3::ZERO, max: Vec3::splat(8.0) };
+        let frame = Frame::new(&Grid::new(bounds, [8; 3]).unwrap());
+        for direction in [Vec3::ZERO, Vec3::INFINITY, Vec3::new(f32::INFINITY, 1.0, 0.0)] {
+            let ray = Ray { t_max: 7.0, ..Ray::new(Vec3::splat(0.5), direction) };
+            let Some(segment) = frame.clip(&ray).lane(0) else { continue };
+            let mut steps = segment.from(segment.cell(0.0), 0);
+            assert!((0..8 * 3).any(|_| steps.advance() > 1.0), "{segment:?}");
         }
     }
 
