@@ -112,7 +112,7 @@ pub fn large() -> Record {
             counters: false,
             complete: true,
         }),
-        structures: STRUCTURES.map(structure).collect(),
+        structures: STRUCTURES.map(structure).into(),
         scenes: SCENES.map(scene).into(),
         cells,
         memory: SCENES.into_iter().flat_map(memory).collect(),
