@@ -76,7 +76,7 @@ pub fn from_text(path: &Path, text: &str) -> Result<Record, RecordError> {
     parse(path, text, MEASURED)
 }
 
-/// The text that [`write`] makes of a record.
+/// The text that [`write()`] makes of a record.
 ///
 /// # Errors
 /// What can't be JSON.
