@@ -11,6 +11,6 @@ mod simd;
 pub use bits::ones;
 pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Shared};
 pub use ids::Ids;
-pub use one_by_one::{OneByOne, Unpacked};
+pub use one_by_one::{OneByOne, Unpacked, one_by_one};
 pub use simd::path;
 pub use simd::{Level, Lists, Portable, ROW, Row, SHARE, Scalar, Simd, Task, prefetch};

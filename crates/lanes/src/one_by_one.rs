@@ -73,24 +73,36 @@ impl<O: Objects> Blocks for OneByOne<O> {
     #[inline(always)]
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &Packet<S>, best: &mut NearestPacket<S>) {
         let object = self.order[slot];
-        if object == EMPTY_SLOT {
-            return;
+        if object != EMPTY_SLOT {
+            one_by_one(s, (&self.objects, object), u32::MAX >> (32 - S::LANES), rays, best);
         }
-        let mut before = [Nearest::new(0.0); ROW];
-        best.store(s, &mut before);
-        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
-        let mut wins = 0;
-        for lane in 0..S::LANES {
-            let mut nearest = before[lane];
-            if nearest.t == f32::NEG_INFINITY {
-                continue;
-            }
-            self.objects.closest(object, &rays.ray(s, lane), &mut nearest);
-            wins |= u32::from(nearest.object != before[lane].object) << lane;
-            (t[lane], u[lane], v[lane]) = (nearest.t, nearest.u, nearest.v);
-        }
-        let wins = s.mask(wins);
-        let lanes = Lanes { hit: wins, t: s.load(&t), u: s.load(&u), v: s.load(&v) };
-        best.take(s, wins, object, &lanes);
     }
+}
+
+/// Tests an object by [`Objects::closest`] against the rays of some lanes.
+#[inline(always)]
+pub fn one_by_one<O: Objects, S: Simd>(
+    s: S,
+    (objects, object): (&O, u32),
+    mut lanes: u32,
+    rays: &Packet<S>,
+    best: &mut NearestPacket<S>,
+) {
+    let mut before = [Nearest::new(0.0); ROW];
+    best.store(s, &mut before);
+    let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
+    let mut wins = 0;
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize % ROW;
+        lanes &= lanes - 1;
+        let mut nearest = before[lane];
+        if nearest.t == f32::NEG_INFINITY {
+            continue;
+        }
+        objects.closest(object, &rays.ray(s, lane), &mut nearest);
+        wins |= u32::from(nearest.object != before[lane].object) << lane;
+        (t[lane], u[lane], v[lane]) = (nearest.t, nearest.u, nearest.v);
+    }
+    let wins = s.mask(wins);
+    best.take(s, wins, object, &Lanes { hit: wins, t: s.load(&t), u: s.load(&u), v: s.load(&v) });
 }

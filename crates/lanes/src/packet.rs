@@ -106,10 +106,9 @@ impl<S: Simd> Packet<S> {
     /// The rays in the lanes whose numbers `at` holds.
     #[inline(always)]
     pub fn permuted(&self, s: S, at: S::U) -> Self {
-        let ([x, y, z], [dx, dy, dz]) = (self.origin, self.direction);
         Self {
-            origin: [s.permute(x, at), s.permute(y, at), s.permute(z, at)],
-            direction: [s.permute(dx, at), s.permute(dy, at), s.permute(dz, at)],
+            origin: permute3(s, self.origin, at),
+            direction: permute3(s, self.direction, at),
             t_min: s.permute(self.t_min, at),
             t_max: s.permute(self.t_max, at),
         }
@@ -175,6 +174,12 @@ pub fn splat3<S: Simd>(s: S, v: Vec3) -> Vec3Lanes<S> {
     [s.splat(v.x), s.splat(v.y), s.splat(v.z)]
 }
 
+/// The vectors in the lanes whose numbers `at` holds.
+#[inline(always)]
+pub fn permute3<S: Simd>(s: S, [x, y, z]: Vec3Lanes<S>, at: S::U) -> Vec3Lanes<S> {
+    [s.permute(x, at), s.permute(y, at), s.permute(z, at)]
+}
+
 /// One lane's value.
 #[inline(always)]
 pub fn lane_of<S: Simd>(s: S, v: S::F, lane: usize) -> f32 {
@@ -211,7 +216,8 @@ impl<S: Simd> Lanes<S> {
 /// [`Lanes`] in memory.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneRows {
-    t: [f32; ROW],
+    /// The rays' parameters.
+    pub t: [f32; ROW],
     u: [f32; ROW],
     v: [f32; ROW],
 }

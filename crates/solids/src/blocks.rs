@@ -1,12 +1,12 @@
 //! Solids packed in blocks of 64: kinds that have rows are tested `LANES` at a time, others one by one.
 
 use crate::frame::Frame;
-use crate::group::{Group, Kind};
+use crate::group::{Kind, Part, Slot};
 use crate::objects::{Precision, Solids};
-use crate::rows::{Cones, Packing, Prepared, Spheres, Triangles};
+use crate::rows::{Cones, Packing, Prepared, Spheres, Triangles, load, splat};
 use accel::{Nearest, Objects, Ray};
-use lanes::packet::{Lanes, NearestPacket, Packet, Pairs};
-use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd};
+use lanes::packet::{NearestPacket, Packet, Pairs, RayRows};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd, one_by_one};
 
 /// Solids in blocks. Each row of 16 slots has a group of rows for each packed kind that is in it.
 #[derive(Clone, Debug)]
@@ -72,47 +72,29 @@ impl<'s> SolidBlocks<'s> {
         best: &mut Nearest,
     ) -> u32 {
         let group = kind.group(number);
-        if wanted & group.mask != 0 {
-            self.group::<K, S>(s, (number * ROW, group), wanted & group.mask, ray, best);
+        for part in group.parts::<S>(number * ROW, wanted) {
+            self.part::<K, S>(s, &part, ray, best);
         }
         group.mask
     }
 
     #[inline(always)]
-    fn group<K: Packing, S: Simd>(
-        &self,
-        s: S,
-        (first, group): (usize, Group<'_>),
-        mask: u32,
-        ray: &OneRay,
-        best: &mut Nearest,
-    ) {
-        let prepared = ray.prepared.splat(s);
-        let mut lane = 0;
-        while lane < ROW {
-            let wanted = mask >> lane & (u32::MAX >> (32 - S::LANES));
-            if wanted != 0 {
-                let values = crate::rows::load::<K, S>(s, group.rows, lane);
-                let found = K::test(s, &prepared, &values, s.splat(best.t));
-                let mut hits = s.bits(found.hit) & wanted;
-                if hits != 0 {
-                    let plain = s.bits(found.plain);
-                    let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
-                    s.store(found.t, &mut t);
-                    s.store(found.u, &mut u);
-                    s.store(found.v, &mut v);
-                    while hits != 0 {
-                        let at = hits.trailing_zeros() as usize;
-                        hits &= hits - 1;
-                        let object = self.ids.get(first + lane + at);
-                        let comes = t[at] < best.t || (t[at] == best.t && object < best.object);
-                        if comes && (plain >> at & 1 != 0 || self.solids.holds(object, &ray.ray, t[at])) {
-                            *best = Nearest { t: t[at], object, u: u[at], v: v[at] };
-                        }
-                    }
-                }
+    fn part<K: Packing, S: Simd>(&self, s: S, part: &Part<'_>, ray: &OneRay, best: &mut Nearest) {
+        let values = load::<K, S>(s, part.rows, part.lane);
+        let found = K::test(s, &ray.prepared.splat(s), &values, s.splat(best.t));
+        let mut hits = s.bits(found.lanes.hit) & part.wanted;
+        if hits == 0 {
+            return;
+        }
+        let plain = s.bits(found.plain);
+        let rows = found.lanes.rows(s);
+        while hits != 0 {
+            let at = hits.trailing_zeros() as usize;
+            hits &= hits - 1;
+            let (object, t) = (self.ids.get(part.slot + at), rows.t[at]);
+            if precedes(t, object, best) && (plain >> at & 1 != 0 || self.solids.holds(object, &ray.ray, t)) {
+                best.offer(object, rows.surface(at));
             }
-            lane += S::LANES;
         }
     }
 
@@ -121,59 +103,39 @@ impl<'s> SolidBlocks<'s> {
     fn packed<K: Packing, S: Simd>(
         &self,
         s: S,
-        slot: usize,
-        group: Group<'_>,
+        slot: Slot<'_>,
         rays: &ManyRays<S>,
         best: &mut NearestPacket<S>,
     ) {
-        let object = self.ids.get(slot);
-        let values = crate::rows::splat::<K, S>(s, group.rows, slot % ROW);
+        let object = self.ids.get(slot.slot);
+        let values = splat::<K, S>(s, slot.rows, slot.lane());
         let found = K::test(s, &rays.prepared, &values, best.t);
-        let mut hit = s.and(found.hit, rays.near);
-        let mut unsure = s.bits(hit) & !s.bits(found.plain);
+        let mut lanes = found.lanes;
+        lanes.hit = s.and(lanes.hit, rays.near);
+        let unsure = s.bits(lanes.hit) & !s.bits(found.plain);
         if unsure != 0 {
-            let mut kept = s.bits(hit);
-            let mut t = [0.0; ROW];
-            s.store(found.t, &mut t);
-            while unsure != 0 {
-                let lane = unsure.trailing_zeros() as usize;
-                unsure &= unsure - 1;
-                if !self.solids.holds(object, &rays.rays.ray(s, lane), t[lane]) {
-                    kept &= !(1 << lane);
-                }
-            }
-            hit = s.mask(kept);
+            let beside = self.beside(object, unsure, &RayRows::of(s, &rays.rays), &lanes.rows(s).t);
+            lanes.hit = s.mask(s.bits(lanes.hit) & !beside);
         }
-        best.offer(s, object, &Lanes { hit, t: found.t, u: found.u, v: found.v });
+        best.offer(s, object, &lanes);
     }
 
-    /// One object against the rays of some lanes, one by one.
-    fn lanes_one_by_one<S: Simd>(
-        &self,
-        s: S,
-        object: u32,
-        mut lanes: u32,
-        rays: &Packet<S>,
-        best: &mut NearestPacket<S>,
-    ) {
-        let mut nearest = [Nearest::new(0.0); ROW];
-        best.store(s, &mut nearest);
-        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
-        let mut wins = 0;
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize;
-            lanes &= lanes - 1;
-            let mut after = nearest[lane];
-            if after.t == f32::NEG_INFINITY {
-                continue;
-            }
-            self.solids.closest(object, &rays.ray(s, lane), &mut after);
-            wins |= u32::from(after.object != nearest[lane].object) << lane;
-            (t[lane], u[lane], v[lane]) = (after.t, after.u, after.v);
+    /// The `unsure` lanes whose hits don't satisfy the hit-in-padded-bounds invariant.
+    pub(crate) fn beside(&self, object: u32, mut unsure: u32, rays: &RayRows, t: &[f32; ROW]) -> u32 {
+        let mut beside = 0;
+        while unsure != 0 {
+            let lane = unsure.trailing_zeros() as usize % ROW;
+            unsure &= unsure - 1;
+            beside |= u32::from(!self.solids.holds(object, &rays.ray(lane), t[lane])) << lane;
         }
-        let wins = s.mask(wins);
-        best.take(s, wins, object, &Lanes { hit: wins, t: s.load(&t), u: s.load(&u), v: s.load(&v) });
+        beside
     }
+}
+
+/// Whether a hit comes before the nearest so far.
+#[inline(always)]
+pub(crate) fn precedes(t: f32, object: u32, best: &Nearest) -> bool {
+    t < best.t || (t == best.t && object < best.object)
 }
 
 impl Blocks for SolidBlocks<'_> {
@@ -215,11 +177,10 @@ impl Blocks for SolidBlocks<'_> {
             let (number, first) = (block * (BLOCK / ROW) + row, block * BLOCK + row * ROW);
             if ray.near {
                 let spheres = self.spheres.group(number);
-                if wanted & spheres.mask != 0 {
-                    let wanted = wanted & spheres.mask;
+                for part in spheres.parts::<S>(first, wanted) {
                     match self.is_exact() {
-                        true => self.exact_group(s, (first, spheres), wanted, ray, best),
-                        false => self.group::<Spheres, S>(s, (first, spheres), wanted, ray, best),
+                        true => self.exact_part(s, &part, ray, best),
+                        false => self.part::<Spheres, S>(s, &part, ray, best),
                     }
                 }
                 wanted &= !spheres.mask;
@@ -243,27 +204,23 @@ impl Blocks for SolidBlocks<'_> {
 
     #[inline(always)]
     fn packet<S: Simd>(&self, s: S, slot: usize, rays: &ManyRays<S>, best: &mut NearestPacket<S>) {
-        let (number, bit) = (slot / ROW, 1 << (slot % ROW));
         let all = u32::MAX >> (32 - S::LANES);
-        let mut left = all;
-        let (spheres, cones, triangles) =
-            (self.spheres.group(number), self.cones.group(number), self.triangles.group(number));
-        if spheres.mask & bit != 0 {
+        let mut left = all & !s.bits(rays.near);
+        if let Some(sphere) = self.spheres.slot(slot) {
             match self.is_exact() {
-                true => self.exact_packed(s, slot, spheres, rays, best),
-                false => self.packed::<Spheres, S>(s, slot, spheres, rays, best),
+                true => self.exact_packed(s, sphere, rays, best),
+                false => self.packed::<Spheres, S>(s, sphere, rays, best),
             }
-            left &= !s.bits(rays.near);
-        } else if cones.mask & bit != 0 {
-            self.packed::<Cones, S>(s, slot, cones, rays, best);
-            left &= !s.bits(rays.near);
-        } else if triangles.mask & bit != 0 {
-            self.packed::<Triangles, S>(s, slot, triangles, rays, best);
-            left &= !s.bits(rays.near);
+        } else if let Some(cone) = self.cones.slot(slot) {
+            self.packed::<Cones, S>(s, cone, rays, best);
+        } else if let Some(triangle) = self.triangles.slot(slot) {
+            self.packed::<Triangles, S>(s, triangle, rays, best);
+        } else {
+            left = all;
         }
         let object = self.ids.get(slot);
         if left != 0 && object != EMPTY_SLOT {
-            self.lanes_one_by_one(s, object, left, &rays.rays, best);
+            one_by_one(s, (&self.solids, object), left, &rays.rays, best);
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Spheres in blocks, tested exactly: single precision rules out what is missed for certain, sixteen at a time.
 
-use crate::blocks::{ManyRays, OneRay, SolidBlocks};
+use crate::blocks::{ManyRays, OneRay, SolidBlocks, precedes};
 use crate::exact::{estimate, nearest, undecided};
-use crate::group::Group;
+use crate::group::{Part, Slot};
 use crate::rows::{Spheres, load, splat};
 use accel::solid::Sphere;
-use accel::{Nearest, Vec3};
+use accel::{Nearest, Surface, Vec3};
 use lanes::packet::{Lanes, NearestPacket, RayRows};
-use lanes::{ROW, Row, Simd};
+use lanes::{ROW, Row, Simd, ones};
 
 /// The sphere in a lane.
 #[inline(always)]
@@ -36,14 +36,6 @@ impl All {
     }
 }
 
-/// The least of all lanes.
-#[inline(always)]
-fn least<S: Simd>(s: S, v: S::F) -> f32 {
-    let mut lanes = [f32::INFINITY; ROW];
-    s.store(v, &mut lanes);
-    lanes.into_iter().fold(f32::INFINITY, f32::min)
-}
-
 /// A bit for each lane that is not 0.
 #[inline(always)]
 fn bits(lanes: &[u32; ROW]) -> u32 {
@@ -51,65 +43,23 @@ fn bits(lanes: &[u32; ROW]) -> u32 {
 }
 
 impl SolidBlocks<'_> {
-    /// The wanted spheres of a row against one near ray.
-    #[inline(always)]
-    pub(crate) fn exact_group<S: Simd>(
-        &self,
-        s: S,
-        (first, group): (usize, Group<'_>),
-        mask: u32,
-        ray: &OneRay,
-        best: &mut Nearest,
-    ) {
-        let prepared = ray.prepared.splat(s);
-        let mut lane = 0;
-        while lane < ROW {
-            let wanted = mask >> lane & (u32::MAX >> (32 - S::LANES));
-            if wanted != 0 {
-                let values = load::<Spheres, S>(s, group.rows, lane);
-                let bounds = Spheres::bounds(s, &prepared, &values, s.splat(best.t));
-                let mut maybe = s.bits(bounds.maybe) & wanted;
-                if maybe == 0 {
-                    lane += S::LANES;
-                    continue;
-                }
-                let infinity = s.splat(f32::INFINITY);
-                let certain = s.and(bounds.certain, s.mask(maybe));
-                let limit = least(s, s.select(certain, bounds.high, infinity));
-                maybe &= s.bits(s.le(bounds.low, s.splat(limit)));
-                while maybe != 0 {
-                    let at = lane + maybe.trailing_zeros() as usize;
-                    maybe &= maybe - 1;
-                    let Some(t) = nearest(&sphere(group.rows, at), &ray.ray, best.t) else { continue };
-                    let object = self.ids.get(first + at);
-                    let comes = t < best.t || object < best.object;
-                    if comes && self.solids.holds(object, &ray.ray, t) {
-                        *best = Nearest { t, object, u: 0.0, v: 0.0 };
-                    }
-                }
-            }
-            lane += S::LANES;
-        }
-    }
-
     /// The sphere in a slot against the near ones of `LANES` rays.
     #[inline(always)]
     pub(crate) fn exact_packed<S: Simd>(
         &self,
         s: S,
-        slot: usize,
-        group: Group<'_>,
+        slot: Slot<'_>,
         rays: &ManyRays<S>,
         best: &mut NearestPacket<S>,
     ) {
-        let values = splat::<Spheres, S>(s, group.rows, slot % ROW);
+        let values = splat::<Spheres, S>(s, slot.rows, slot.lane());
         let bounds = Spheres::bounds(s, &rays.prepared, &values, best.t);
         let maybe = s.and(bounds.maybe, rays.near);
         let maybe = s.bits(maybe);
         if maybe == 0 {
             return;
         }
-        let sphere = sphere(group.rows, slot % ROW);
+        let sphere = sphere(slot.rows, slot.lane());
         let rows = RayRows::of(s, &rays.rays);
         let mut all = All::of::<S>(&sphere, &rows);
         let mut hits = bits(&all.hit) & maybe;
@@ -124,17 +74,34 @@ impl SolidBlocks<'_> {
         }
         let t = s.load(&all.t);
         hits &= s.bits(s.le(t, best.t));
-        let object = self.ids.get(slot);
-        let mut unsure = hits & !s.bits(Spheres::is_plain(s, &rays.prepared, &values, t));
-        while unsure != 0 {
-            let lane = unsure.trailing_zeros() as usize;
-            unsure &= unsure - 1;
-            if !self.solids.holds(object, &rows.ray(lane), all.t[lane]) {
-                hits &= !(1 << lane);
-            }
-        }
+        let object = self.ids.get(slot.slot);
+        let unsure = hits & !s.bits(Spheres::is_plain(s, &rays.prepared, &values, t));
+        hits &= !self.beside(object, unsure, &rows, &all.t);
         let zero = s.splat(0.0);
         best.offer(s, object, &Lanes { hit: s.mask(hits), t, u: zero, v: zero });
+    }
+
+    /// The wanted spheres of a part of a row against one near ray.
+    #[inline(always)]
+    pub(crate) fn exact_part<S: Simd>(&self, s: S, part: &Part<'_>, ray: &OneRay, best: &mut Nearest) {
+        let values = load::<Spheres, S>(s, part.rows, part.lane);
+        let bounds = Spheres::bounds(s, &ray.prepared.splat(s), &values, s.splat(best.t));
+        let mut maybe = s.bits(bounds.maybe) & part.wanted;
+        if maybe == 0 {
+            return;
+        }
+        let infinity = s.splat(f32::INFINITY);
+        let certain = s.and(bounds.certain, s.mask(maybe));
+        let limit = s.least(s.select(certain, bounds.high, infinity));
+        maybe &= s.bits(s.le(bounds.low, s.splat(limit)));
+        for at in ones(maybe.into()) {
+            let sphere = sphere(part.rows, part.lane + at);
+            let Some(t) = nearest(&sphere, &ray.ray, best.t) else { continue };
+            let object = self.ids.get(part.slot + at);
+            if precedes(t, object, best) && self.solids.holds(object, &ray.ray, t) {
+                best.offer(object, Surface { t, u: 0.0, v: 0.0 });
+            }
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::objects::Solids;
 use crate::rows::{MOST_ROWS, Packing};
 use accel::vec_bytes;
-use lanes::{BLOCK, EMPTY_SLOT, ROW, Row};
+use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, Simd};
 use std::marker::PhantomData;
 
 /// Rows of one kind. Where an order keeps kinds apart there is little that is empty in them.
@@ -29,6 +29,47 @@ pub struct Group<'a> {
     pub mask: u32,
     /// Their numbers, or none.
     pub rows: &'a [Row],
+}
+
+/// `LANES` slots of a row that are tested at once.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'a> {
+    /// The numbers of the row's objects.
+    pub rows: &'a [Row],
+    /// Where the part begins in the row.
+    pub lane: usize,
+    /// The slot that it begins with.
+    pub slot: usize,
+    /// Which of its slots are wanted, at least one.
+    pub wanted: u32,
+}
+
+/// A slot that holds an object of a kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Slot<'a> {
+    /// The numbers of its row's objects.
+    pub rows: &'a [Row],
+    /// Its number.
+    pub slot: usize,
+}
+
+impl Slot<'_> {
+    /// Its place in the row.
+    #[inline(always)]
+    pub fn lane(&self) -> usize {
+        self.slot % ROW
+    }
+}
+
+impl<'a> Group<'a> {
+    /// The parts that hold wanted objects, where `slot` is the row's first.
+    #[inline(always)]
+    pub fn parts<S: Simd>(self, slot: usize, wanted: u32) -> impl Iterator<Item = Part<'a>> {
+        let (wanted, all) = (wanted & self.mask, u32::MAX >> (32 - S::LANES));
+        let part =
+            move |lane| Part { rows: self.rows, lane, slot: slot + lane, wanted: wanted >> lane & all };
+        (0..ROW).step_by(S::LANES).map(part).filter(|part| part.wanted != 0)
+    }
 }
 
 impl<K: Packing> Kind<K> {
@@ -72,6 +113,13 @@ impl<K: Packing> Kind<K> {
     #[inline(always)]
     pub fn rows_of(&self, row: usize) -> &[Row] {
         self.group(row).rows
+    }
+
+    /// A slot, if it holds an object of the kind.
+    #[inline(always)]
+    pub fn slot(&self, slot: usize) -> Option<Slot<'_>> {
+        let Group { mask, rows } = self.group(slot / ROW);
+        (mask >> (slot % ROW) & 1 != 0).then_some(Slot { rows, slot })
     }
 
     /// What is in a row of slots.

@@ -1,6 +1,6 @@
 //! Rays and solids of a block in pairs, one pair in each lane.
 
-use crate::blocks::SolidBlocks;
+use crate::blocks::{SolidBlocks, precedes};
 use crate::exact::nearest;
 use crate::group::Kind;
 use crate::rows::{MOST_ROWS, Packing, Prepared, Spheres, Values};
@@ -157,25 +157,23 @@ impl SolidBlocks<'_> {
     ) {
         let (prepared, t_max) = rays.permuted(s, group);
         let found = K::test(s, &prepared, &values(s, kind, block, group), t_max);
-        let mut hits = s.bits(found.hit) & wanted;
+        let mut hits = s.bits(found.lanes.hit) & wanted;
         if hits == 0 {
             return;
         }
         let plain = s.bits(found.plain);
-        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
-        s.store(found.t, &mut t);
-        s.store(found.u, &mut u);
-        s.store(found.v, &mut v);
+        let rows = found.lanes.rows(s);
         while hits != 0 {
             let lane = hits.trailing_zeros() as usize % ROW;
             hits &= hits - 1;
             let (slot, place) = group.pair(lane);
             let object = self.ids.get(block * BLOCK + slot);
-            let comes = t[lane] < best[place].t || t[lane] == best[place].t && object < best[place].object;
-            if comes && (plain >> lane & 1 != 0 || self.solids.holds(object, &rays.rows.ray(place), t[lane]))
+            let (t, best) = (rows.t[lane], &mut best[place]);
+            if precedes(t, object, best)
+                && (plain >> lane & 1 != 0 || self.solids.holds(object, &rays.rows.ray(place), t))
             {
-                best[place].offer(object, Surface { t: t[lane], u: u[lane], v: v[lane] });
-                rays.found(place, t[lane]);
+                best.offer(object, rows.surface(lane));
+                rays.found(place, t);
             }
         }
     }
@@ -226,8 +224,7 @@ impl SolidBlocks<'_> {
             let ray = rays.rows.ray(place);
             let Some(t) = nearest(&sphere, &ray, best[place].t) else { continue };
             let object = self.ids.get(block * BLOCK + slot);
-            let comes = t < best[place].t || object < best[place].object;
-            if comes && self.solids.holds(object, &ray, t) {
+            if precedes(t, object, &best[place]) && self.solids.holds(object, &ray, t) {
                 best[place].offer(object, Surface { t, u: 0.0, v: 0.0 });
                 rays.found(place, t);
             }

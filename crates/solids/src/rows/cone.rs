@@ -4,6 +4,7 @@ use super::{Found, MOST_ROWS, Packing, Prepared, Values, along, dot, first, sub3
 use accel::solid::Shape;
 use accel::{Aabb, Solid};
 use lanes::Simd;
+use lanes::packet::Lanes;
 
 /// The middle of one end, the axis, the height, the radius there and by how much it grows with the height, and the box from that
 /// middle on.
@@ -102,6 +103,6 @@ impl Packing for Cones {
             let above = s.le(s.sub(low, ray.half_pad), place);
             plain = s.and(plain, s.and(above, s.le(place, s.add(high, ray.half_pad))));
         }
-        Found { hit: s.and(crossed, within), t, u: zero, v: zero, plain }
+        Found { lanes: Lanes { hit: s.and(crossed, within), t, u: zero, v: zero }, plain }
     }
 }

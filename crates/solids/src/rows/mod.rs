@@ -10,7 +10,7 @@ pub use sphere::Spheres;
 pub use triangle::Triangles;
 
 use accel::{Ray, Solid, Surface};
-use lanes::packet::{Packet, Vec3Lanes};
+use lanes::packet::{Lanes, Packet, Vec3Lanes, permute3};
 use lanes::{Row, Simd};
 
 /// More rows than any kind has.
@@ -44,10 +44,9 @@ impl<F: Copy> Prepared<F> {
     /// The rays in the lanes whose numbers `at` holds.
     #[inline(always)]
     pub fn permuted<S: Simd<F = F>>(&self, s: S, at: S::U) -> Self {
-        let ([x, y, z], [u, v, w]) = (self.origin, self.direction);
         Self {
-            origin: [s.permute(x, at), s.permute(y, at), s.permute(z, at)],
-            direction: [s.permute(u, at), s.permute(v, at), s.permute(w, at)],
+            origin: permute3(s, self.origin, at),
+            direction: permute3(s, self.direction, at),
             inverse: s.permute(self.inverse, at),
             t_min: s.permute(self.t_min, at),
             half_pad: self.half_pad,
@@ -73,14 +72,8 @@ impl Prepared<f32> {
 /// What a test found.
 #[derive(Clone, Copy)]
 pub struct Found<S: Simd> {
-    /// Hits with t in range.
-    pub hit: S::M,
-    /// Where. Both zeros are one.
-    pub t: S::F,
-    /// First surface coordinates. Both zeros are one.
-    pub u: S::F,
-    /// Second surface coordinates. Both zeros are one.
-    pub v: S::F,
+    /// Hits with t in range. Both zeros are one.
+    pub lanes: Lanes<S>,
     /// Those whose place, as it is rounded, lies in the object's box padded by half: for near rays they satisfy the
     /// hit-in-padded-bounds invariant.
     pub plain: S::M,
@@ -131,7 +124,8 @@ pub fn one<K: Packing>(
 ) -> Option<(Surface, bool)> {
     let prepared = Prepared::of(lanes::Scalar, &Packet::splat(lanes::Scalar, ray), pad);
     let found = K::test(lanes::Scalar, &prepared, numbers, t_max);
-    found.hit.then_some((Surface { t: found.t, u: found.u, v: found.v }, found.plain))
+    let Lanes { hit, t, u, v } = found.lanes;
+    hit.then_some((Surface { t, u, v }, found.plain))
 }
 
 #[inline(always)]

@@ -3,6 +3,7 @@
 use super::{Found, MOST_ROWS, Packing, Prepared, Values, along, dot, first, sub3};
 use accel::Solid;
 use lanes::Simd;
+use lanes::packet::Lanes;
 
 /// Centre and radius.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +36,7 @@ impl Packing for Spheres {
         let (enters, leaves) = (s.sub(middle, half), s.add(middle, half));
         let (within, t) = first(s, enters, leaves, ray.t_min, t_max);
         let hit = s.and(s.le(zero, square), within);
-        Found { hit, t, u: zero, v: zero, plain: Self::is_plain(s, ray, values, t) }
+        Found { lanes: Lanes { hit, t, u: zero, v: zero }, plain: Self::is_plain(s, ray, values, t) }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Found, MOST_ROWS, Packing, Prepared, Values, along, dot, sub3};
 use accel::Solid;
 use lanes::Simd;
-use lanes::packet::Vec3Lanes;
+use lanes::packet::{Lanes, Vec3Lanes};
 
 /// The first corner, and the edges from it to the others.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl Packing for Triangles {
             let high = s.add(s.max(zero, s.max(e, f)), ray.half_pad);
             plain = s.and(plain, s.and(s.le(low, place), s.le(place, high)));
         }
-        Found { hit, t, u: s.add(u, zero), v: s.add(v, zero), plain }
+        Found { lanes: Lanes { hit, t, u: s.add(u, zero), v: s.add(v, zero) }, plain }
     }
 }
 
