@@ -154,6 +154,8 @@ impl Sight {
     fn of(line: &Local) -> Option<Self> {
         let direction = line.direction.try_normalize()?;
         let (a, b) = direction.any_orthonormal_pair();
+        // No part is missed by a line that is nowhere: all would be halved to the end.
+        line.origin.is_finite().then_some(())?;
         Some(Self { origin: line.origin, across: [a, b] })
     }
 

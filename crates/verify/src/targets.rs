@@ -2,10 +2,11 @@
 
 use crate::cases::{self, Reach, WIDE};
 use crate::compare::compare;
-use crate::{Bytes, Numbers};
+use crate::{Bytes, Numbers, unusable};
 use harness::record::{from_text, to_text};
 use harness::registry::{StructureSpec, choose};
 use primitives::KernelId;
+use scenes::Random;
 use scenes::exchange::read_rays;
 use std::path::Path;
 
@@ -97,7 +98,8 @@ pub fn settings(bytes: &[u8]) {
     assert_eq!(choose(&again).expect("settings that were taken once").builder.settings(), all);
 }
 
-/// A scene, rays and settings: a built-in structure against brute force, and that now and then against the oracle.
+/// A scene, rays and settings: a built-in structure against brute force, and that now and then against the oracle; rays that are none
+/// now and then.
 ///
 /// All is small, as many small cases find more than few large ones: the marathon has those.
 pub fn structures(bytes: &[u8]) {
@@ -116,6 +118,19 @@ pub fn structures(bytes: &[u8]) {
     let rays = cases::rays(&mut numbers, &scene, &reach, count);
     let true_answers = usize::from(numbers.below(8) == 0);
     if let Err(difference) = compare(&scene, &rays, &spec, true_answers) {
+        panic!("{difference}\n{scene:?}");
+    }
+    // One case in four has its rays spoiled too; some of these meet solids instead.
+    let spoiled = match numbers.below(8) {
+        1 => unusable::any(&mut numbers, &scene, &rays, &spec),
+        2 => {
+            let mut random = Random::new(numbers.bits().into());
+            let scene = cases::solids(&mut random, &cases::KINDS, 1 + numbers.below(16));
+            unusable::any(&mut numbers, &scene, &rays, &spec)
+        }
+        _ => return,
+    };
+    if let Err(difference) = spoiled {
         panic!("{difference}\n{scene:?}");
     }
 }

@@ -2,7 +2,8 @@
 
 use scenes::Random;
 use std::path::Path;
-use verify::{Numbers, targets};
+use std::time::Duration;
+use verify::{Numbers, patience, targets};
 
 /// Inputs of each kind for a target.
 const EACH: u64 = 1000;
@@ -44,7 +45,14 @@ fn damaged(numbers: &mut Random, all: &[Vec<u8>]) -> Vec<u8> {
     bytes
 }
 
-fn run(name: &str) {
+/// Long past what a target takes: what runs then has no end.
+const PATIENCE: Duration = Duration::from_secs(300);
+
+fn run(name: &'static str) {
+    patience::within(PATIENCE, move || run_all(name)).expect("an input is worked on without end");
+}
+
+fn run_all(name: &str) {
     let (_, target) = targets::ALL.into_iter().find(|(known, _)| *known == name).expect("a target");
     let all = corpus(name);
     all.iter().for_each(|bytes| target(bytes));

@@ -11,11 +11,20 @@ const SIDE: u32 = 256;
 
 /// An image of the scene, from as far as rays begin; none where structures don't accept each of its rays.
 pub fn image(numbers: &mut impl Numbers, scene: &Scene, reach: &Reach) -> Option<Raster> {
+    image_up_to(numbers, scene, reach, SIDE)
+}
+
+/// [`image`] of few rows and columns.
+pub fn small_image(numbers: &mut impl Numbers, scene: &Scene, reach: &Reach) -> Option<Raster> {
+    image_up_to(numbers, scene, reach, 12)
+}
+
+fn image_up_to(numbers: &mut impl Numbers, scene: &Scene, reach: &Reach, most: u32) -> Option<Raster> {
     let bounds = scene.geometry.bounds();
     let target = aim(numbers, scene)?;
     let size = bounds.extent().max_element();
     let eye = target + point(numbers) * size * 2f32.powi(reach.origins.min(FAR_OUT));
-    let mut side = || 1 + numbers.below(SIDE);
+    let mut side = || 1 + numbers.below(most);
     let (rows, cols) = (side(), side());
     let up = point(numbers);
     let away = f64::from((eye - target).length());

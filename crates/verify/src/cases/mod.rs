@@ -6,13 +6,15 @@ mod reach;
 mod scene;
 mod solids;
 mod structure;
+mod unusable;
 
-pub use image::image;
+pub use image::{image, small_image};
 pub use rays::rays;
 pub use reach::{Bounds, Reach, WIDE};
 pub use scene::{SHAPES, Shape, scene, scene_of};
 pub use solids::{KINDS, solids};
 pub use structure::structure;
+pub use unusable::{unusable, unusable_image};
 
 use crate::Numbers;
 use accel::Vec3;

@@ -3,15 +3,21 @@
 use super::group::Group;
 use super::subject::{Subject, Verdict};
 use crate::cases::{self, Reach, Shape};
+use crate::{patience, unusable};
 use accel::{Builder, Ray, Scene, Vec3, Workload};
 use baselines::Brute;
 use lanes::Level;
 use primitives::KernelId;
 use scenes::Random;
+use std::time::Duration;
 
 pub(super) const GROUPS: &[Group] = &[
     Group { name: "rays/inactive", about: "ranges that end before they begin hit nothing", ask: inactive },
-    Group { name: "rays/nan", about: "NaN, infinite and zero rays end and hit nothing", ask: unusable },
+    Group {
+        name: "rays/nan",
+        about: "NaN, infinite and zero rays, and images of them: every walk ends, and nothing is hit",
+        ask: none,
+    },
     Group { name: "rays/far", about: "origins 2^10 to 2^60 times the scene's size away", ask: far },
     Group { name: "rays/random", about: "random rays through random scenes", ask: random },
     Group { name: "rays/all-hits", about: "every crossing, in order, and once", ask: all_hits },
@@ -37,7 +43,38 @@ fn inactive(subject: &Subject) -> Verdict {
     subject.hits_nothing(&scene, &rays.iter().map(ended).collect::<Vec<_>>())
 }
 
-fn unusable(subject: &Subject) -> Verdict {
+/// A question that has not ended by then never will: it takes a second.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+fn none(subject: &Subject) -> Verdict {
+    let subject = *subject;
+    let asked = patience::within(PATIENCE, move || {
+        let verdict = each_way_to_be_none(&subject);
+        if subject.is_built_in() { verdict.and(any_that_are_none(&subject)) } else { verdict }
+    });
+    asked.unwrap_or_else(|| Verdict::Wrong { what: format!("no end after {PATIENCE:?}") })
+}
+
+/// Rays that are none in several ways at a time, and images of them, in each of the settings that checks try.
+fn any_that_are_none(subject: &Subject) -> Verdict {
+    let mut numbers = Random::new(7);
+    let settings = std::iter::once(&"").chain(subject.entry.variants);
+    settings.fold(Verdict::Passed { checks: 0 }, |verdict, settings| {
+        let spec = format!("{}:{settings}", subject.entry.id);
+        (50..54).fold(verdict, |verdict, seed| {
+            let (triangles, rays) = case(seed, &CLOSE, 64);
+            let solids = cases::solids(&mut numbers, &cases::KINDS, 48);
+            let scenes = [triangles, solids];
+            let asked = scenes.iter().try_fold(0, |asked, scene| {
+                unusable::any(&mut numbers, scene, &rays, &spec).map(|more| asked + more)
+            });
+            verdict.and(Verdict::of(asked.map_err(|wrong| wrong.to_string())))
+        })
+    })
+}
+
+/// Each part of sound rays replaced by each number that is none.
+fn each_way_to_be_none(subject: &Subject) -> Verdict {
     let (scene, rays) = case(4, &CLOSE, 32);
     let mut all = Vec::new();
     for ray in &rays {

@@ -1,6 +1,7 @@
 //! Who is asked, and what it answers.
 
 use crate::compare::compare;
+use crate::unusable;
 use accel::{Accel, Hit, Ray, RaySet, Scene, Workload};
 use harness::check::oracle_of;
 use harness::guard::guard;
@@ -132,29 +133,18 @@ impl Subject {
 
     /// Whether none of these rays hits anything and tracing them ends, together and one by one.
     pub(super) fn hits_nothing(&self, scene: &Scene, rays: &[Ray]) -> Verdict {
-        let mut hits = vec![None; rays.len()];
-        let mut occluded = vec![false; rays.len()];
-        let set = RaySet::List(rays.to_vec());
-        let traced = match self.build(scene) {
-            Ok(built) => guard("tracing", || {
-                built.trace(&set, &mut hits);
-                built.trace_occluded(&set, &mut occluded);
-                rays.iter().filter(|ray| built.closest(ray).is_some() || built.occluded(ray)).count()
-            })
-            .map_err(|panic| panic.to_string()),
+        let (checks, set) = (rays.len() as u64, RaySet::List(rays.to_vec()));
+        let found = match self.build(scene) {
+            Ok(built) => {
+                guard("tracing", || unusable::hits(&*built, &set)).map_err(|panic| panic.to_string())
+            }
             Err(failure) => Err(failure.to_string()),
         };
-        let found = match traced {
-            Ok(alone) => {
-                alone.max(hits.iter().flatten().count()).max(occluded.iter().filter(|o| **o).count())
-            }
-            Err(what) if self.is_built_in() => return Verdict::Wrong { what },
-            Err(_) => rays.len(),
-        };
         match (self.is_built_in(), found) {
-            (true, 0) => Verdict::Passed { checks: rays.len() as u64 },
-            (true, _) => Verdict::Wrong { what: format!("{found} of {} rays hit", rays.len()) },
-            (false, _) => Verdict::Counted { checks: rays.len() as u64, wrong: found as u64 },
+            (true, Ok(0)) => Verdict::Passed { checks },
+            (true, Ok(found)) => Verdict::Wrong { what: format!("{found} of {checks} rays hit") },
+            (true, Err(what)) => Verdict::Wrong { what },
+            (false, found) => Verdict::Counted { checks, wrong: found.unwrap_or(checks) },
         }
     }
 }

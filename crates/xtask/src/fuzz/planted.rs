@@ -26,7 +26,7 @@ struct Fault {
 
 /// One a reader at least, and one a structure with maps or cells; those of one crate follow each other, as a crate is compiled again
 /// for each.
-const FAULTS: [Fault; 11] = [
+const FAULTS: [Fault; 12] = [
     Fault {
         target: "obj",
         what: "coordinates that are not finite are taken",
@@ -75,6 +75,13 @@ const FAULTS: [Fault; 11] = [
         file: "crates/ssm/src/compact/bricks.rs",
         text: "((range.end - 1) >> (SHIFT * levels)) + 1",
         replaced: "((range.end - 1) >> (SHIFT * levels)).max((range.start >> (SHIFT * levels)) + 1)",
+    },
+    Fault {
+        target: "structures",
+        what: "ssm: the walk of a ray whose direction is infinite has no end",
+        file: "crates/ssm/src/compact/segment.rs",
+        text: "s.select(moves, per_cell, zero)",
+        replaced: "s.select(s.lt(s.abs(delta), s.splat(self.parallel[axis])), zero, per_cell)",
     },
     Fault {
         target: "structures",
