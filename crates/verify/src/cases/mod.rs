@@ -11,7 +11,7 @@ mod unusable;
 pub use image::{image, small_image};
 pub use rays::rays;
 pub use reach::{Bounds, Reach, WIDE};
-pub use scene::{SHAPES, Shape, scene, scene_of};
+pub use scene::{SHAPES, Shape, closed, scene, scene_of};
 pub use solids::{KINDS, solids};
 pub use structure::structure;
 pub use unusable::{unusable, unusable_image};

@@ -66,7 +66,7 @@ pub fn scene_of(
     let geometry = match shape {
         Shape::Boxes => Geometry::Boxes(boxes(numbers, reach, count)?),
         Shape::Closed => {
-            let mesh = ball(numbers, count);
+            let mesh = closed(numbers, count);
             Geometry::Triangles(placed(numbers, reach, mesh)?)
         }
         _ => {
@@ -117,8 +117,8 @@ fn boxes(numbers: &mut impl Numbers, reach: &Reach, count: u32) -> Result<Vec<Aa
     Ok(boxes)
 }
 
-/// Rings between two poles, about so many triangles.
-fn ball(numbers: &mut impl Numbers, count: u32) -> Mesh {
+/// A closed mesh: rough rings between two poles, about so many triangles.
+pub fn closed(numbers: &mut impl Numbers, count: u32) -> Mesh {
     let around = 3 + (f64::from(count).sqrt() as u32) / 2;
     let rings = 1 + count / (2 * around);
     let mut mesh = Mesh { positions: vec![Vec3::Y, Vec3::NEG_Y], triangles: Vec::new() };
