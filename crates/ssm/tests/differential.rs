@@ -56,6 +56,17 @@ fn every_resolution() {
 }
 
 #[test]
+fn boxes_of_groups_are_kept_where_they_part_rays() {
+    for (scene, slices, kept) in [(cloud(3000, 0.02), 2, true), (cloud(600, 1.0), 16, false)] {
+        let settings = Settings::new(Resolution::Slices([slices; 3]));
+        let footprint = Ssm { settings, divide: None }.build(&scene, &Workload::GENERAL).unwrap().footprint();
+        let of_boxes = footprint.parts.iter().find(|part| part.name == "boxes").map_or(0, |part| part.bytes);
+        assert_eq!(of_boxes > 0, kept);
+        check(&scene, 1500, settings);
+    }
+}
+
+#[test]
 fn extreme_scenes() {
     let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
     let flat = mesh((0..200).map(|i| {

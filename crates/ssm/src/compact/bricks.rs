@@ -210,6 +210,11 @@ impl BrickGrid {
         }
     }
 
+    /// Whether this cell of the grid's own is divided.
+    pub fn divides(&self, cell: usize) -> bool {
+        self.is_divided((cell / BRICK) as u32, (cell % BRICK) as u32)
+    }
+
     #[inline(always)]
     fn is_divided(&self, node: u32, within: u32) -> bool {
         self.divided.get(node as usize).is_some_and(|bits| bits >> within & 1 != 0)

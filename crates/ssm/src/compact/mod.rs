@@ -1,6 +1,7 @@
 //! `ssm`: the compact grid.
 
 mod all;
+mod boxes;
 mod bricks;
 mod divide;
 mod order;
@@ -14,8 +15,8 @@ use crate::settings::Settings;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
 use accel::{
-    Aabb, Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet,
-    Scene, Workload, vec_bytes,
+    Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet, Scene,
+    Workload, vec_bytes,
 };
 use bricks::{BRICK, BrickGrid};
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
@@ -123,7 +124,7 @@ struct Built<O: PackedObjects> {
     grid: Grid,
     bricks: BrickGrid,
     cells: Cells,
-    /// The boxes of all groups.
+    /// The boxes of all groups, or none where they are not worth looking at.
     boxes: Vec<UnitBox>,
     /// Whether the first group is in no cell and meets every ray.
     apart: bool,
@@ -192,18 +193,9 @@ impl Laid {
         if let Some(gain) = ssm.divide {
             cells = divide::divide(cells, &mut bricks, objects, &slots, gain, (limit, cancel))?;
         }
-        let boxes = boxes(objects, &bricks, &slots);
+        let boxes = boxes::boxes(objects, &grid, &bricks, &cells, &slots);
         Ok(Self { grid, bricks, cells, boxes, slots, apart })
     }
-}
-
-/// The boxes of the groups of 16 slots.
-fn boxes<B: Bounds>(objects: &B, bricks: &BrickGrid, slots: &[u32]) -> Vec<UnitBox> {
-    let of_group = |slots: &[u32]| {
-        let held = slots.iter().filter(|object| **object != EMPTY_SLOT);
-        bricks.unit_box(&held.fold(Aabb::EMPTY, |hull, object| hull.union(objects.bounds(*object))))
-    };
-    slots.par_chunks(GROUP).with_min_len(1 << 8).map(of_group).collect()
 }
 
 impl<O: PackedObjects> Built<O> {

@@ -48,6 +48,20 @@ pub(super) struct UnitBox([f32; 8]);
 /// Where upper bounds begin.
 const UPPER: usize = 4;
 
+impl UnitBox {
+    /// About what part of the lines through a cell of a grid meet this box too: that of the cell's sides, seen along each axis,
+    /// which it covers.
+    pub fn part_of_cell(&self, slices: [u32; 3], resolution: [u32; 3]) -> f64 {
+        let Self(sides) = self;
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            let n = resolution[axis] as f32;
+            let inside = |side: f32| (side * n - slices[axis] as f32).clamp(0.0, 1.0);
+            f64::from(inside(sides[UPPER + axis]) - inside(sides[axis]))
+        });
+        (x * y + y * z + z * x) / 3.0
+    }
+}
+
 impl Frame {
     pub fn new(lattice: &Grid) -> Self {
         Self::with_inset(lattice, INSET)

@@ -28,7 +28,7 @@ impl Mailbox {
 }
 
 /// A ray on its way through the cells.
-struct TraversalState<'a, S, B: Blocks, C, const ANY: bool> {
+struct TraversalState<'a, S, B: Blocks, C, const ANY: bool, const BOXED: bool> {
     simd: S,
     cells: &'a Cells,
     boxes: &'a [UnitBox],
@@ -42,7 +42,9 @@ struct TraversalState<'a, S, B: Blocks, C, const ANY: bool> {
     count: &'a mut C,
 }
 
-impl<S: Simd, B: Blocks, C: Count, const ANY: bool> TraversalState<'_, S, B, C, ANY> {
+impl<S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool>
+    TraversalState<'_, S, B, C, ANY, BOXED>
+{
     /// Tests the objects of a group.
     #[inline(always)]
     fn test(&mut self, group: u32) {
@@ -58,15 +60,18 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> TraversalState<'_, S, B, C, 
     }
 }
 
-impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for TraversalState<'_, S, B, C, ANY> {
+impl<S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool> Visit
+    for TraversalState<'_, S, B, C, ANY, BOXED>
+{
     #[inline(always)]
     fn cell(&mut self, number: usize) -> f32 {
         let before = self.best.t;
         for &group in self.cells.list(number) {
             self.count.candidates(1);
             let known = self.met.contains_or_insert(group);
+            let missed = BOXED && !self.segment.meets(&self.boxes[group as usize], self.limit);
             // Both, for one jump is mispredicted less often than two.
-            if known | !self.segment.meets(&self.boxes[group as usize], self.limit) {
+            if known | missed {
                 continue;
             }
             self.test(group);
@@ -91,15 +96,15 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool> Visit for TraversalState<'_,
     }
 }
 
-/// Rays traced with one instruction set, for the nearest hit or any.
-struct Batch<'a, O: PackedObjects, C, const ANY: bool> {
+/// Rays traced with one instruction set, for the nearest hit or any, with boxes of groups or without.
+struct Batch<'a, O: PackedObjects, C, const ANY: bool, const BOXED: bool> {
     built: &'a Built<O>,
     rays: &'a [Ray],
     found: &'a mut [Nearest],
     count: &'a mut C,
 }
 
-impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> {
+impl<O: PackedObjects, C: Count, const ANY: bool, const BOXED: bool> Task for Batch<'_, O, C, ANY, BOXED> {
     type Out = ();
 
     #[inline(always)]
@@ -110,7 +115,7 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
             let segments =
                 if let [ray] = rays { bricks.clip(ray) } else { bricks.clip_rows(simd, &rows(simd, rays)) };
             for (lane, (ray, found)) in rays.iter().zip(found).enumerate() {
-                let mut state = TraversalState::<_, _, _, ANY> {
+                let mut state = TraversalState::<_, _, _, ANY, BOXED> {
                     simd,
                     cells,
                     boxes,
@@ -141,7 +146,12 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
 
 impl<O: PackedObjects> Built<O> {
     fn batch<const ANY: bool>(&self, rays: &[Ray], found: &mut [Nearest]) {
-        self.settings.simd.run(Batch::<_, _, ANY> { built: self, rays, found, count: &mut NoCount });
+        let (simd, count) = (self.settings.simd, &mut NoCount);
+        if self.boxes.is_empty() {
+            simd.run(Batch::<_, _, ANY, false> { built: self, rays, found, count });
+        } else {
+            simd.run(Batch::<_, _, ANY, true> { built: self, rays, found, count });
+        }
     }
 
     /// One ray.
@@ -202,7 +212,12 @@ impl<O: PackedObjects> Built<O> {
             let mut found = [Nearest::new(0.0); BATCH];
             let found = &mut found[..own.len()];
             // The same steps at every level: one is enough.
-            Batch::<_, _, ANY> { built: self, rays: own, found, count: &mut counters }.run(Portable);
+            let count = &mut counters;
+            if self.boxes.is_empty() {
+                Batch::<_, _, ANY, false> { built: self, rays: own, found, count }.run(Portable);
+            } else {
+                Batch::<_, _, ANY, true> { built: self, rays: own, found, count }.run(Portable);
+            }
         }
         counters
     }
