@@ -161,12 +161,14 @@ fn settings() -> impl Strategy<Value = String> {
     (
         prop::sample::select(vec!["1", "4", "3x1x7", "16", "40x9x2", "auto"]),
         prop::sample::select(vec!["appendix", "words"]),
-        prop::sample::select(vec!["on", "off"]),
+        prop::array::uniform2(prop::sample::select(vec!["on", "off"])),
         prop::sample::select(KernelId::ALL.map(KernelId::id).to_vec()),
         prop::sample::select(Level::here().map(Level::id).collect::<Vec<_>>()),
     )
-        .prop_map(|(n, walk, mailbox, kernel, simd)| {
-            format!("resolution={n} loop={walk} mailbox={mailbox} kernel={kernel} simd={simd}")
+        .prop_map(|(n, walk, [mailbox, levels], kernel, simd)| {
+            format!(
+                "resolution={n} loop={walk} mailbox={mailbox} levels={levels} kernel={kernel} simd={simd}"
+            )
         })
 }
 
@@ -271,4 +273,20 @@ fn the_mailbox_saves_tests_and_the_plan_tells_what_was_built() {
         built.count(&rays, false).unwrap().tests
     };
     assert!(tests("resolution=16 mailbox=on") < tests("resolution=16 mailbox=off"));
+}
+
+#[test]
+fn maps_above_maps_pass_over_empty_words_and_no_candidate() {
+    let scene = lattice();
+    let rays = RaySet::List(
+        (0..50).map(|i| Ray::new(Vec3::splat(-1.0), Vec3::new(1.0, 0.9 + i as f32 * 0.01, 0.8))).collect(),
+    );
+    let count = |settings: &str| {
+        let built = builder(settings).build(&scene, &Workload::GENERAL).unwrap();
+        (built.plan(), built.count(&rays, false).unwrap())
+    };
+    let ((_, flat), (plan, levels)) = (count("resolution=16"), count("resolution=16 levels=on"));
+    assert!(plan.contains("levels of maps above"), "{plan}");
+    assert_eq!((levels.candidates, levels.tests, levels.cells), (flat.candidates, flat.tests, flat.cells));
+    assert!(levels.words < flat.words, "{} {}", levels.words, flat.words);
 }

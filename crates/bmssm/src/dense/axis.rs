@@ -86,6 +86,25 @@ impl Axis {
         all
     }
 
+    /// Words of a slice's map.
+    pub fn words(&self) -> usize {
+        words_of(self.objects)
+    }
+
+    /// The maps above: a bit for each word of each slice's map, set where the word holds any.
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if memory doesn't hold them.
+    pub fn above(&self) -> Result<Self, BuildError> {
+        let mut above = Self::try_new(self.slices, self.words())?;
+        for slice in 0..self.slices as u32 {
+            for (index, _) in self.slice(slice).iter().enumerate().filter(|(_, word)| **word != 0) {
+                above.touch(slice..slice + 1, index as u32);
+            }
+        }
+        Ok(above)
+    }
+
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         accel::vec_bytes(&self.words)

@@ -9,6 +9,7 @@ mod all;
 mod axis;
 mod detail;
 mod image;
+mod levels;
 mod resolution;
 mod settings;
 mod space;
@@ -93,14 +94,16 @@ impl Maps {
             })
             .transpose()
             .map_err(|error| setting("resolution", error.to_string()))?;
+        let bytes_of = if settings.levels { SpaceMaps::bytes_of_levels } else { SpaceMaps::bytes_of };
         let bytes = workload.raster.map_or(0, |raster| ImageMaps::bytes_of(&raster, objects.len()))
-            + grid.map_or(0, |grid| SpaceMaps::bytes_of(grid.resolution(), objects.len()));
+            + grid.map_or(0, |grid| bytes_of(grid.resolution(), objects.len()));
         let limit = settings.memory.unwrap_or_else(accel::available_memory);
         if bytes > limit {
             return Err(BuildError::TooLarge { structure: ID.into(), bytes, limit });
         }
         let image = workload.raster.map(|raster| ImageMaps::try_new(objects, raster)).transpose()?;
         let space = grid.map(|grid| SpaceMaps::try_new(objects, grid)).transpose()?;
+        let space = if settings.levels { space.map(SpaceMaps::with_levels).transpose()? } else { space };
         Ok(Self { objects: objects.len(), image, space })
     }
 
@@ -125,7 +128,11 @@ fn plan(image: Option<&ImageMaps>, space: Option<&SpaceMaps>) -> String {
     }
     if let Some(maps) = space {
         let [x, y, z] = maps.grid.resolution();
-        lines.push(format!("{x} × {y} × {z} slices"));
+        let levels = match maps.above.len() {
+            0 => String::new(),
+            above => format!(", {above} levels of maps above"),
+        };
+        lines.push(format!("{x} × {y} × {z} slices{levels}"));
     }
     lines.join("\n")
 }

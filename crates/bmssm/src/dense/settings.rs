@@ -28,6 +28,8 @@ pub struct Settings {
     pub walk: Loop,
     /// Whether a general ray passes over objects it tested in an earlier cell.
     pub mailbox: bool,
+    /// Whether there are maps above the maps of space, which tell the words that are not zero.
+    pub levels: bool,
     /// Most bytes the maps may take; `None` for what the machine has to give.
     pub memory: Option<u128>,
 }
@@ -41,6 +43,7 @@ impl Default for Settings {
             resolution: Resolution::Auto,
             walk: Loop::Words,
             mailbox: false,
+            levels: false,
             memory: None,
         }
     }
@@ -48,12 +51,16 @@ impl Default for Settings {
 
 impl Settings {
     /// Names and meanings, for help texts.
-    pub const NAMES: [(&str, &str); 6] = [
+    pub const NAMES: [(&str, &str); 7] = [
         ("kernel", "ray-triangle test; quantised and box are lossy"),
         ("simd", "instruction set"),
         ("resolution", "slices per axis: auto, 64, or 64x32x16"),
         ("loop", "words (64 bits, find-first-set) or appendix (32 bits, bit by bit)"),
         ("mailbox", "on: test no object twice for a ray; off: as in the paper"),
+        (
+            "levels",
+            "on: maps above maps for rays of any kind, so that empty words are passed over; off: as in the paper",
+        ),
         ("memory", "most bytes the maps may take"),
     ];
 
@@ -68,6 +75,7 @@ impl Settings {
             "resolution" => self.resolution = Resolution::parse(value)?,
             "loop" => self.walk = one_of(value, [Loop::Appendix, Loop::Words], |walk| walk.id())?,
             "mailbox" => self.mailbox = switch(value)?,
+            "levels" => self.levels = switch(value)?,
             "memory" => self.memory = Some(settings::bytes(value)?),
             _ => return Err(none_of(name, Self::NAMES.map(|(name, _)| name))),
         }
@@ -87,11 +95,11 @@ impl Loop {
 
 impl fmt::Display for Settings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { kernel, simd, resolution, walk, mailbox, memory } = self;
-        let mailbox = if *mailbox { "on" } else { "off" };
+        let Self { kernel, simd, resolution, walk, mailbox, levels, memory } = self;
+        let [mailbox, levels] = [mailbox, levels].map(|on| if *on { "on" } else { "off" });
         write!(
             f,
-            "kernel={kernel} simd={} resolution={resolution} loop={} mailbox={mailbox}",
+            "kernel={kernel} simd={} resolution={resolution} loop={} mailbox={mailbox} levels={levels}",
             simd.id(),
             walk.id()
         )?;
@@ -106,7 +114,7 @@ mod tests {
     #[test]
     fn every_setting_is_read_as_it_is_written() {
         let mut settings = Settings::default();
-        let text = "kernel=watertight simd=portable resolution=64x32x16 loop=appendix mailbox=on memory=123";
+        let text = "kernel=watertight simd=portable resolution=64x32x16 loop=appendix mailbox=on levels=on memory=123";
         for (name, value) in text.split(' ').map(|pair| pair.split_once('=').unwrap()) {
             settings.set(name, value).unwrap();
         }

@@ -12,6 +12,8 @@ pub struct SpaceMaps {
     pub grid: Grid,
     /// R, S and T.
     pub axes: [Axis; 3],
+    /// Maps above these, level by level up to one word a slice; none in the paper.
+    pub above: Vec<[Axis; 3]>,
 }
 
 impl SpaceMaps {
@@ -36,7 +38,29 @@ impl SpaceMaps {
                 maps.touch(grid.slices(axis, &bounds), id);
             }
         }
-        Ok(Self { grid, axes })
+        Ok(Self { grid, axes, above: Vec::new() })
+    }
+
+    /// With maps above maps, until a slice has no more than one word.
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if memory doesn't hold them.
+    pub fn with_levels(mut self) -> Result<Self, BuildError> {
+        loop {
+            let [x, y, z] = self.above.last().unwrap_or(&self.axes);
+            if x.words() <= 1 {
+                return Ok(self);
+            }
+            let above = [x.above()?, y.above()?, z.above()?];
+            self.above.push(above);
+        }
+    }
+
+    /// Bytes of the maps of [`SpaceMaps::with_levels`].
+    pub fn bytes_of_levels(resolution: [u32; 3], objects: usize) -> u128 {
+        let above = objects.div_ceil(64);
+        let more = if above > 1 { Self::bytes_of_levels(resolution, above) } else { 0 };
+        Self::bytes_of(resolution, objects) + more
     }
 
     /// Bytes of the maps of so many objects: M_BMSSM.
@@ -46,7 +70,8 @@ impl SpaceMaps {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.axes.iter().map(Axis::bytes).sum()
+        let maps: usize = self.above.iter().flatten().chain(&self.axes).map(Axis::bytes).sum();
+        maps + accel::vec_bytes(&self.above)
     }
 
     /// The maps of the three slices that meet in a cell.
@@ -104,5 +129,8 @@ mod tests {
             }
         }
         assert_eq!(maps.references(), references);
+        let levels = maps.with_levels().unwrap();
+        let list = accel::vec_bytes(&levels.above);
+        assert_eq!((levels.bytes() - list) as u128, SpaceMaps::bytes_of_levels([8; 3], 128));
     }
 }

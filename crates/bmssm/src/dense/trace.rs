@@ -1,6 +1,7 @@
 //! Tracing rays through bit maps.
 
 use super::detail::Detail;
+use super::levels::Descent;
 use super::{ImageMaps, SpaceMaps};
 use accel::dda::Walk;
 use accel::parallel::for_each_chunk;
@@ -139,6 +140,25 @@ impl<O: Objects, D: Detail> Built<O, D> {
         A::new(&state.best, state.count)
     }
 
+    /// Tests the candidates of a word of ⁱR & ʲS & ᵏT; whether to go on.
+    #[inline(always)]
+    fn of_cell<S: Simd, A: Answer>(
+        &self,
+        s: S,
+        index: usize,
+        mut word: u64,
+        state: &mut State<D::Ray, A::Count>,
+        tested: &mut [u64],
+    ) -> bool {
+        state.count.words(3);
+        state.count.candidates(word.count_ones().into());
+        if self.mailbox {
+            word &= !tested[index];
+            tested[index] |= word;
+        }
+        self.word::<S, A>(s, index, word, state)
+    }
+
     /// ⁱR & ʲS & ᵏT in every cell on the ray's way, until a hit comes before the next cell.
     #[inline(always)]
     fn cells<S: Simd, A: Answer>(&self, s: S, maps: &SpaceMaps, ray: &Ray, tested: &mut [u64]) -> A {
@@ -160,16 +180,19 @@ impl<O: Objects, D: Detail> Built<O, D> {
             }
             state.count.cells(1);
             let [r, s_words, t] = maps.cell(cell.slice);
-            for (index, ((r, s_word), t)) in r.iter().zip(s_words).zip(t).enumerate() {
-                let mut word = r & s_word & t;
-                state.count.words(3);
-                state.count.candidates(word.count_ones().into());
-                if self.mailbox {
-                    word &= !tested[index];
-                    tested[index] |= word;
+            if maps.above.is_empty() {
+                for (index, ((r, s_word), t)) in r.iter().zip(s_words).zip(t).enumerate() {
+                    if !self.of_cell::<S, A>(s, index, r & s_word & t, &mut state, tested) {
+                        break 'walk;
+                    }
                 }
-                if !self.word::<S, A>(s, index, word, &mut state) {
-                    break 'walk;
+            } else {
+                let mut descent = Descent::new(maps, cell.slice, &mut state.count);
+                while let Some(index) = descent.next(&mut state.count) {
+                    let word = r[index] & s_words[index] & t[index];
+                    if !self.of_cell::<S, A>(s, index, word, &mut state, tested) {
+                        break 'walk;
+                    }
                 }
             }
         }

@@ -73,6 +73,7 @@ pub const ENTRIES: &[Entry] = &[
             "resolution=3x17x5,simd=portable",
             "loop=appendix,resolution=8",
             "mailbox=on",
+            "levels=on,resolution=8",
             "kernel=watertight",
         ],
         make: set!(BmssmDense),
