@@ -7,32 +7,43 @@ use crate::rows::{Spheres, load, splat};
 use accel::solid::Sphere;
 use accel::{Nearest, Surface, Vec3};
 use lanes::packet::{Lanes, NearestPacket, RayRows};
-use lanes::{ROW, Row, Simd, ones};
+use lanes::{ROW, Simd, ones};
+
+/// Centre and radius of the sphere in each lane.
+pub type SphereRows = [[f32; ROW]; 4];
 
 /// The sphere in a lane.
 #[inline(always)]
-fn sphere(rows: &[Row], lane: usize) -> Sphere {
-    Sphere { center: Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]), radius: rows[3].0[lane] }
+fn sphere([x, y, z, radius]: [&[f32; ROW]; 4], lane: usize) -> Sphere {
+    Sphere { center: Vec3::new(x[lane], y[lane], z[lane]), radius: radius[lane] }
 }
 
-/// What [`estimate`] tells of the rays of all lanes.
-struct All {
-    t: [f32; ROW],
-    hit: [u32; ROW],
-    open: [u32; ROW],
+/// Where the rays of all lanes meet the spheres of theirs.
+pub struct Met {
+    /// Where those do that hit.
+    pub t: [f32; ROW],
+    /// The wanted lanes that hit.
+    pub hits: u32,
 }
 
-impl All {
+impl Met {
+    /// By [`estimate`] in all lanes, and by integers in the wanted ones that it leaves open.
     #[inline(always)]
-    fn of<S: Simd>(sphere: &Sphere, rays: &RayRows) -> Self {
-        let center = sphere.center.to_array();
-        let mut all = Self { t: [0.0; ROW], hit: [0; ROW], open: [0; ROW] };
+    pub fn of<S: Simd>(spheres: &SphereRows, rays: &RayRows, wanted: u32) -> Self {
+        let (mut t, mut hit, mut open) = ([0.0; ROW], [0; ROW], [0; ROW]);
+        let [x, y, z, radius] = spheres;
         for lane in 0..S::LANES {
-            let told = estimate(center, sphere.radius, &rays.ray(lane));
-            (all.t[lane], all.hit[lane], all.open[lane]) =
-                (told.t, u32::from(told.hit), u32::from(told.open));
+            let told = estimate([x[lane], y[lane], z[lane]], radius[lane], &rays.ray(lane));
+            (t[lane], hit[lane], open[lane]) = (told.t, u32::from(told.hit), u32::from(told.open));
         }
-        all
+        let mut met = Self { t, hits: bits(&hit) & wanted };
+        for lane in ones(u64::from(bits(&open) & wanted)) {
+            if let Some(t) = undecided(&sphere(spheres.each_ref(), lane), &rays.ray(lane)) {
+                met.t[lane] = t;
+                met.hits |= 1 << lane;
+            }
+        }
+        met
     }
 }
 
@@ -59,24 +70,17 @@ impl SolidBlocks<'_> {
         if maybe == 0 {
             return;
         }
-        let sphere = sphere(slot.rows, slot.lane());
-        let rows = RayRows::of(s, &rays.rays);
-        let mut all = All::of::<S>(&sphere, &rows);
-        let mut hits = bits(&all.hit) & maybe;
-        let mut open = bits(&all.open) & maybe;
-        while open != 0 {
-            let lane = open.trailing_zeros() as usize;
-            open &= open - 1;
-            if let Some(t) = undecided(&sphere, &rows.ray(lane)) {
-                all.t[lane] = t;
-                hits |= 1 << lane;
-            }
+        let mut spheres = [[0.0; ROW]; 4];
+        for (row, value) in spheres.iter_mut().zip(values) {
+            s.store(value, row);
         }
-        let t = s.load(&all.t);
+        let rows = RayRows::of(s, &rays.rays);
+        let Met { t: places, mut hits } = Met::of::<S>(&spheres, &rows, maybe);
+        let t = s.load(&places);
         hits &= s.bits(s.le(t, best.t));
         let object = self.ids.get(slot.slot);
         let unsure = hits & !s.bits(Spheres::is_plain(s, &rays.prepared, &values, t));
-        hits &= !self.beside(object, unsure, &rows, &all.t);
+        hits &= !self.beside(object, unsure, &rows, &places);
         let zero = s.splat(0.0);
         best.offer(s, object, &Lanes { hit: s.mask(hits), t, u: zero, v: zero });
     }
@@ -95,7 +99,7 @@ impl SolidBlocks<'_> {
         let limit = s.least(s.select(certain, bounds.high, infinity));
         maybe &= s.bits(s.le(bounds.low, s.splat(limit)));
         for at in ones(maybe.into()) {
-            let sphere = sphere(part.rows, part.lane + at);
+            let sphere = sphere([0, 1, 2, 3].map(|i| &part.rows[i].0), part.lane + at);
             let Some(t) = nearest(&sphere, &ray.ray, best.t) else { continue };
             let object = self.ids.get(part.slot + at);
             if precedes(t, object, best) && self.solids.holds(object, &ray.ray, t) {
@@ -146,8 +150,9 @@ mod tests {
         let (sphere, _) = spheres_and_rays(3).nth(2).unwrap();
         let rays = spheres_and_rays(ROW as u32).map(|(_, ray)| ray).collect::<Vec<Ray>>();
         let rows = RayRows::of(lanes::Scalar, &lanes::packet::Packet::splat(lanes::Scalar, &rays[3]));
-        let all = All::of::<lanes::Scalar>(&sphere, &rows);
-        let told = estimate(sphere.center.to_array(), sphere.radius, &rays[3]);
-        assert_eq!((all.hit[0], all.open[0]), (u32::from(told.hit), u32::from(told.open)));
+        let [x, y, z] = sphere.center.to_array();
+        let met = Met::of::<lanes::Scalar>(&[x, y, z, sphere.radius].map(|number| [number; ROW]), &rows, 1);
+        let found = nearest(&sphere, &rays[3], rays[3].t_max);
+        assert_eq!((met.hits == 1).then_some(met.t[0]), found);
     }
 }
