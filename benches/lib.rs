@@ -4,7 +4,7 @@ use accel::{Accel, Hit, RaySet, Scene, Workload};
 use criterion::{Criterion, Throughput};
 use harness::measure::memory_rows;
 use harness::record::Layout;
-use harness::registry::{self, Choice};
+use harness::registry::{self, Choice, StructureSpec};
 use scenes::rays::{RaysId, RaysSpec, generate};
 use std::hint::black_box;
 use std::time::Duration;
@@ -20,9 +20,12 @@ pub fn structures() -> Vec<Choice> {
     all_structures().into_iter().filter(|choice| !choice.entry.traits.linear).collect()
 }
 
-/// All structures of the default comparison, `bmssm-dense`, `minmax` and `sphere` among them.
+/// All structures of the default comparison, `bmssm-dense`, `minmax` and `sphere` among them, and `bmssm-dense` with maps at all
+/// levels, which is what to hold the tree of `bmssm` against.
 pub fn all_structures() -> Vec<Choice> {
-    registry::defaults().iter().filter_map(|spec| registry::choose(spec).ok()).collect()
+    let levels = StructureSpec::plain("bmssm-dense").with("levels", "on");
+    let specs = registry::defaults().into_iter().chain([levels]);
+    specs.filter_map(|spec| registry::choose(&spec).ok()).collect()
 }
 
 /// A scene of the suite.

@@ -231,6 +231,7 @@ fn held(solid: &Solid) -> usize {
         Solid::Implicit(implicit) => implicit.function.bytes(),
         Solid::Facets(facets) => facets.bytes(),
         Solid::Csg(tree) => size_of_val(&*tree.parts) + tree.parts.iter().map(held).sum::<usize>(),
+        Solid::Group(group) => group.parts().iter().map(|part| size_of_val(part) + held(part)).sum(),
         _ => 0,
     }
 }

@@ -19,8 +19,8 @@ const SHAPES: [&str; 5] = [
     "x^4 - 2*x^2 + y^4 - 2*y^2 + z^4 - 2*z^2 + 1.8",
 ];
 
-/// Steps of the finer search along a ray.
-const STEPS: u32 = 400;
+/// Steps of the finer search along a ray, before it looks between them.
+const STEPS: u32 = 1000;
 
 /// What was found of a kind.
 #[derive(Default)]
@@ -56,23 +56,76 @@ fn aimed(random: &mut impl FnMut() -> f32) -> Ray {
     Ray::new(origin, if origin == to { Vec3::X } else { to - origin })
 }
 
-/// Counts changes of `inside` between steps along the way through a box that no crossing tells.
-fn search(ray: &Ray, bounds: &Aabb, crossings: &[Crossing], inside: impl Fn(DVec3) -> bool) -> u64 {
+/// Counts changes of sign of a function along the way through a box that no crossing tells, by a search that knows only the
+/// function's values: at steps, and between them wherever its size has a least value, so that two roots between steps are seen
+/// as well. Of a dip that is hardly deeper than rounding nothing is asked.
+fn search(ray: &Ray, bounds: &Aabb, crossings: &[Crossing], value: impl Fn(DVec3) -> f64) -> u64 {
     let Some((near, far)) = bounds.overlap(ray.origin, ray.direction) else { return 0 };
     let place = |i: u32| near + (far - near) * (f64::from(i) + 0.5) / f64::from(STEPS);
-    let slack = (far - near) * 1e-9;
-    let (mut missed, mut next) = (0, 0);
-    let mut before = inside(at(ray, place(0)));
-    for i in 1..STEPS {
-        let now = inside(at(ray, place(i)));
-        while crossings.get(next).is_some_and(|c| c.t < place(i - 1) - slack) {
-            next += 1;
+    let along = |t: f64| value(at(ray, t));
+    let mut roots = Vec::new();
+    let [mut first, mut middle] = [0, 1].map(|i| along(place(i)));
+    for i in 2..=STEPS {
+        // A step beyond the last one stands for the end.
+        let last = if i < STEPS { along(place(i)) } else { middle };
+        let [from, to] = [place(i - 2), place(i.min(STEPS - 1))];
+        if (first < 0.0) != (middle < 0.0) {
+            roots.push(root_between(&along, from, place(i - 1)));
+        } else if (middle < 0.0) == (last < 0.0) && middle.abs() < first.abs() && middle.abs() <= last.abs() {
+            let dip = least(&along, from, to);
+            if (along(dip) < 0.0) != (middle < 0.0) && along(dip).abs() > SHALLOW {
+                roots.extend([root_between(&along, from, dip), root_between(&along, dip, to)]);
+            }
         }
-        let told = crossings.get(next).is_some_and(|c| c.t <= place(i) + slack);
-        missed += u64::from(now != before && !told);
-        before = now;
+        (first, middle) = (middle, last);
+    }
+    let slack = (far - near) * 1e-7;
+    let mut told = crossings.iter().map(|crossing| crossing.t).peekable();
+    let mut missed = 0;
+    for root in roots {
+        while told.next_if(|t| *t < root - slack).is_some() {}
+        missed += u64::from(told.next_if(|t| *t <= root + slack).is_none());
     }
     missed
+}
+
+/// Values that rounding may account for.
+const SHALLOW: f64 = 1e-12;
+
+/// Where the sign changes between two places of different signs.
+fn root_between(along: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let sign = along(low) < 0.0;
+    for _ in 0..48 {
+        let middle = 0.5 * (low + high);
+        if (along(middle) < 0.0) == sign { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Where the size of a function is least between two places, or where its sign differs from that at both, by the golden section.
+fn least(along: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let sign = if along(low) < 0.0 { -1.0 } else { 1.0 };
+    let size = |t: f64| sign * along(t);
+    let part = 0.5 * (5f64.sqrt() - 1.0);
+    let mut places = [high - part * (high - low), low + part * (high - low)];
+    let mut sizes = places.map(size);
+    for _ in 0..40 {
+        if sizes[0] < 0.0 {
+            return places[0];
+        }
+        if sizes[0] < sizes[1] {
+            high = places[1];
+            (places[1], sizes[1]) = (places[0], sizes[0]);
+            places[0] = high - part * (high - low);
+            sizes[0] = size(places[0]);
+        } else {
+            low = places[0];
+            (places[0], sizes[0]) = (places[1], sizes[1]);
+            places[1] = low + part * (high - low);
+            sizes[1] = size(places[1]);
+        }
+    }
+    0.5 * (low + high)
 }
 
 fn implicit(rays: u64) -> Found {
@@ -87,7 +140,7 @@ fn implicit(rays: u64) -> Found {
         let shape = &shapes[i as usize % shapes.len()];
         let ray = aimed(&mut random);
         let crossings = told(shape, &ray);
-        found.missed += search(&ray, &bounds, &crossings, |p| shape.function.value(p.to_array()) < 0.0);
+        found.missed += search(&ray, &bounds, &crossings, |p| shape.function.value(p.to_array()));
         found.unpaired += crossings.len() as u64 % 2;
         for crossing in &crossings {
             let p = at(&ray, crossing.t);
@@ -203,26 +256,27 @@ fn sets(rays: u64) -> Found {
         let part = Csg::new(Combination::Difference, Solid::Csg(body), Solid::Cone(bore));
         let ray = aimed(&mut random);
         let crossings = told(&part, &ray);
-        let inside = |p: DVec3| {
-            let in_ball = p.distance(ball.center.as_dvec3()) < f64::from(ball.radius);
-            let in_block = p.cmpge(block.min.as_dvec3()).all() && p.cmple(block.max.as_dvec3()).all();
-            (in_ball || in_block) && !in_cone(&bore, p)
+        let value = |p: DVec3| {
+            let in_ball = p.distance(ball.center.as_dvec3()) - f64::from(ball.radius);
+            let beside = (block.min.as_dvec3() - p).max(p - block.max.as_dvec3()).max_element();
+            in_ball.min(beside).max(-of_cone(&bore, p))
         };
         let bounds = Aabb { min: Vec3::splat(-1.5), max: Vec3::splat(1.5) };
-        found.missed += search(&ray, &bounds, &crossings, inside);
+        found.missed += search(&ray, &bounds, &crossings, value);
         found.unpaired += crossings.len() as u64 % 2;
         found.count(&crossings);
     }
     found
 }
 
-fn in_cone(cone: &Cone, p: DVec3) -> bool {
+/// Below 0 inside.
+fn of_cone(cone: &Cone, p: DVec3) -> f64 {
     let (base, top) = (cone.base.as_dvec3(), cone.top.as_dvec3());
     let (height, axis) = ((top - base).length(), (top - base).normalize());
     let along = (p - base).dot(axis);
     let slope = (f64::from(cone.top_radius) - f64::from(cone.base_radius)) / height;
     let radius = f64::from(cone.base_radius) + slope * along;
-    (0.0..=height).contains(&along) && (p - base - axis * along).length() < radius
+    ((p - base - axis * along).length() - radius).max(-along).max(along - height)
 }
 
 impl Found {

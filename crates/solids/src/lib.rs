@@ -16,6 +16,7 @@ mod exact_pairs;
 mod facets;
 mod frame;
 mod group;
+mod hierarchy;
 mod implicit;
 mod interval;
 mod kind;

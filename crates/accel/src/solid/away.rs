@@ -22,6 +22,7 @@ pub(super) fn away(solid: &Solid, point: DVec3) -> Option<f64> {
         }
         Solid::Facets(facets) => facets.nearest(point)?.1,
         Solid::Csg(tree) => tree.nearest(point)?.1,
+        Solid::Group(group) => group.nearest(point)?.1,
         Solid::Triangle(_) | Solid::Disc(_) | Solid::Patch(_) => return None,
     })
 }

@@ -110,6 +110,7 @@ fn openness(solid: &Solid) -> Option<&'static str> {
         Solid::Triangle(_) | Solid::Disc(_) | Solid::Patch(_) => {
             Some("is no closed object: it has no inside")
         }
+        Solid::Group(_) => Some("may be open: it has no inside, as a union has"),
         _ => None,
     }
 }

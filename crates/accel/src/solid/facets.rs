@@ -100,7 +100,7 @@ fn open_edge(mesh: &Mesh) -> Option<[Vec3; 2]> {
 }
 
 /// How far a point is from a triangle (C. Ericson 2005, "Real-Time Collision Detection", §5.1.5, by its edges and its inside).
-fn distance([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+pub(super) fn distance([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let to_edge = |p: DVec3, q: DVec3| {
         let along = q - p;
         let t = ((point - p).dot(along) / along.length_squared()).clamp(0.0, 1.0);

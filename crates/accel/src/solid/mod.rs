@@ -12,6 +12,7 @@ mod disc;
 mod error;
 mod expression;
 mod facets;
+mod group;
 mod implicit;
 mod patch;
 mod quadric;
@@ -25,6 +26,7 @@ pub use disc::Disc;
 pub use error::SolidError;
 pub use expression::{Arithmetic, Expression, Gradient, ParseError};
 pub use facets::Facets;
+pub use group::Group;
 pub use implicit::Implicit;
 pub use patch::{Net, Patch};
 pub use quadric::Quadric;
@@ -59,6 +61,8 @@ pub enum Solid {
     Facets(Facets),
     /// Closed solids combined.
     Csg(Csg),
+    /// Objects of any kinds as one.
+    Group(Group),
 }
 
 /// What is asked of every kind. Places are in `f64`: a point of a surface that is rounded to `f32` lies beside it.
@@ -102,6 +106,7 @@ macro_rules! of_solid {
             $crate::Solid::Patch($shape) => $does,
             $crate::Solid::Facets($shape) => $does,
             $crate::Solid::Csg($shape) => $does,
+            $crate::Solid::Group($shape) => $does,
         }
     };
 }
@@ -140,6 +145,7 @@ impl Solid {
             Self::Patch(shape) => Self::Patch(shape.moved(scale, offset)),
             Self::Facets(shape) => Self::Facets(shape.moved(scale, offset)),
             Self::Csg(shape) => Self::Csg(shape.moved(scale, offset)),
+            Self::Group(shape) => Self::Group(shape.moved(scale, offset)),
         }
     }
 

@@ -65,7 +65,7 @@ impl Patch {
     }
 
     /// About where the patch is nearest to a point: the best of a grid, improved by steps along the tangents.
-    fn nearest(&self, point: DVec3) -> [f64; 2] {
+    pub(super) fn nearest(&self, point: DVec3) -> [f64; 2] {
         const GRID: u32 = 8;
         let place = |i: u32| f64::from(i) / f64::from(GRID);
         let places = (0..=GRID).flat_map(|j| (0..=GRID).map(move |i| [place(i), place(j)]));

@@ -43,32 +43,38 @@ pub fn tessellate(solids: &[Solid], level: u32) -> Tessellation {
     let mut all = Tessellation::default();
     let n = segments(level);
     for (owner, solid) in (0..).zip(solids) {
-        match solid {
-            Solid::Triangle(corners) => all.append(owner, corners, [[0, 1, 2]]),
-            Solid::Box(bounds) => sheet::block(&mut all, owner, bounds),
-            Solid::Sphere(sphere) => sheet::ball(&mut all, owner, sphere, n),
-            Solid::Cone(cone) => sheet::cone(&mut all, owner, cone, n),
-            Solid::Disc(disc) => {
-                sheet::disc(
-                    &mut all,
-                    owner,
-                    disc.center.as_dvec3(),
-                    disc.normal.as_dvec3(),
-                    f64::from(disc.radius),
-                    n,
-                );
-            }
-            Solid::Torus(torus) => sheet::ring(&mut all, owner, torus, n),
-            // A patch is about a quarter of what goes around.
-            Solid::Patch(patch) => sheet::patch(&mut all, owner, patch, (n / 4).max(1)),
-            Solid::Facets(facets) => {
-                let mesh = facets.mesh();
-                all.append(owner, &mesh.positions, mesh.triangles.iter().copied());
-            }
-            Solid::Quadric(_) | Solid::Implicit(_) | Solid::Csg(_) => march::solid(&mut all, owner, solid, n),
-        }
+        append(&mut all, owner, solid, n);
     }
     all
+}
+
+/// Appends a solid with `n` edges around.
+fn append(all: &mut Tessellation, owner: u32, solid: &Solid, n: u32) {
+    match solid {
+        Solid::Triangle(corners) => all.append(owner, corners, [[0, 1, 2]]),
+        Solid::Box(bounds) => sheet::block(all, owner, bounds),
+        Solid::Sphere(sphere) => sheet::ball(all, owner, sphere, n),
+        Solid::Cone(cone) => sheet::cone(all, owner, cone, n),
+        Solid::Disc(disc) => {
+            sheet::disc(
+                all,
+                owner,
+                disc.center.as_dvec3(),
+                disc.normal.as_dvec3(),
+                f64::from(disc.radius),
+                n,
+            );
+        }
+        Solid::Torus(torus) => sheet::ring(all, owner, torus, n),
+        // A patch is about a quarter of what goes around.
+        Solid::Patch(patch) => sheet::patch(all, owner, patch, (n / 4).max(1)),
+        Solid::Facets(facets) => {
+            let mesh = facets.mesh();
+            all.append(owner, &mesh.positions, mesh.triangles.iter().copied());
+        }
+        Solid::Group(group) => group.parts().iter().for_each(|part| append(all, owner, part, n)),
+        Solid::Quadric(_) | Solid::Implicit(_) | Solid::Csg(_) => march::solid(all, owner, solid, n),
+    }
 }
 
 /// Rounds to single precision and turns −0 into 0.

@@ -3,14 +3,14 @@
 use super::fields::Table;
 use crate::reader;
 use accel::solid::{
-    Combination, Cone, Csg, Disc, Expression, Facets, Implicit, Patch, Quadric, Sphere, Torus,
+    Combination, Cone, Csg, Disc, Expression, Facets, Group, Implicit, Patch, Quadric, Sphere, Torus,
 };
 use accel::{Aabb, Solid};
 use std::sync::Arc;
 
-const KINDS: [&str; 12] = [
+const KINDS: [&str; 13] = [
     "triangle", "box", "sphere", "cone", "cylinder", "disc", "quadric", "torus", "implicit", "patch",
-    "facets", "csg",
+    "facets", "csg", "group",
 ];
 
 /// The solid that a table says; fields that are left over and values out of range are for [`Table::finish`].
@@ -60,6 +60,7 @@ pub fn read(table: &mut Table<'_>) -> Result<Solid, String> {
             Solid::Facets(Facets::new(Arc::new(polygons.mesh)))
         }
         "csg" => csg(table)?,
+        "group" => Solid::Group(Group::new(parts(table)?)),
         _ => return Err(table.unknown_kind(&KINDS)),
     })
 }
@@ -73,14 +74,15 @@ fn csg(table: &mut Table<'_>) -> Result<Solid, String> {
     let combination = Combination::parse(name).ok_or_else(|| {
         table.refuse("combination", &format!("must be union, intersection or difference, not `{name}`"))
     })?;
-    let parts: Result<Vec<Solid>, String> = table
-        .parts("parts")?
-        .into_iter()
-        .map(|mut part| {
-            let solid = read(&mut part)?;
-            part.finish(&solid)?;
-            Ok(solid)
-        })
-        .collect();
-    Csg::of(combination, parts?).ok_or_else(|| table.refuse("parts", "are none"))
+    Csg::of(combination, parts(table)?).ok_or_else(|| table.refuse("parts", "are none"))
+}
+
+/// The solids that are parts of one.
+fn parts(table: &mut Table<'_>) -> Result<Vec<Solid>, String> {
+    let parts = table.parts("parts")?.into_iter().map(|mut part| {
+        let solid = read(&mut part)?;
+        part.finish(&solid)?;
+        Ok(solid)
+    });
+    parts.collect()
 }

@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_patches_and_sets_are_read() {
+    fn functions_patches_sets_and_groups_are_read() {
         let net: String = (0..16).map(|i| format!("[{}, {}, 0], ", i % 4, i / 4)).collect();
         let text = format!(
             "
@@ -85,11 +85,20 @@ mod tests {
                     {{ kind = 'sphere', center = [1, 1, 1], radius = 0.5 }},
                 ] }},
             ]
+            [[solid]]
+            kind = 'group'
+            parts = [
+                {{ kind = 'disc', center = [0, 0, 0], normal = [0, 0, 1], radius = 1 }},
+                {{ kind = 'group', parts = [
+                    {{ kind = 'sphere', center = [0, 0, 3], radius = 0.5 }},
+                    {{ kind = 'box', min = [0, 0, 1], max = [1, 1, 2] }},
+                ] }},
+            ]
         "
         );
         let definition = Definition::parse(&format!("{HEAD}{text}")).unwrap();
         let kinds: Vec<_> = definition.solids.iter().map(accel::Solid::kind).collect();
-        assert_eq!(kinds, ["implicit", "patch", "csg"]);
+        assert_eq!(kinds, ["implicit", "patch", "csg", "group"]);
     }
 
     #[test]
@@ -152,6 +161,14 @@ mod tests {
             (
                 "[[solid]]\nkind = 'csg'\ncombination = 'without'\nparts = []",
                 "`combination` must be union, intersection or difference, not `without`",
+            ),
+            (
+                "[[solid]]\nkind = 'csg'\ncombination = 'union'\nparts = [{ kind = 'group', parts = [{ kind = 'box', min = [0,0,0], max = [1,1,1] }, { kind = 'sphere', center = [0,0,0], radius = 1 }] }, { kind = 'box', min = [0,0,0], max = [1,1,1] }]",
+                "line 7, solid 1 (csg): `parts` hold a group, which may be open",
+            ),
+            (
+                "[[solid]]\nkind = 'group'\nparts = [{ kind = 'box', min = [0,0,0], max = [1,1,1] }, { kind = 'sphere', center = [0,0,0], radius = -1 }]",
+                "line 7, solid 1 (group), part 2 (sphere): `radius` must be above 0",
             ),
             ("[[solid]]\nkind = 'quadric'\ncoefficients = [1, 2]", "`coefficients` must be 10 numbers"),
         ] {

@@ -3,15 +3,15 @@
 use super::point;
 use crate::Numbers;
 use accel::solid::{
-    Combination, Cone, Csg, Disc, Expression, Facets, Implicit, Patch, Quadric, Sphere, Torus,
+    Combination, Cone, Csg, Disc, Expression, Facets, Group, Implicit, Patch, Quadric, Sphere, Torus,
 };
 use accel::{Aabb, Geometry, Mesh, Scene, Solid, Vec3, View};
 use std::sync::Arc;
 
 /// All kinds.
-pub const KINDS: [&str; 12] = [
+pub const KINDS: [&str; 13] = [
     "triangle", "box", "sphere", "cone", "cylinder", "disc", "quadric", "torus", "implicit", "patch",
-    "facets", "csg",
+    "facets", "csg", "group",
 ];
 
 /// A scene of so many valid solids of these kinds in turn, in the cube from −1 to 1.
@@ -71,6 +71,11 @@ fn solid(numbers: &mut impl Numbers, kind: &str) -> Solid {
             let bore = Solid::Cone(Cone { base: -q, base_radius: 0.3 * b, top: q, top_radius: 0.3 * b });
             let first = Csg::new(numbers.one_of(&how), body, ball);
             Solid::Csg(Csg::new(numbers.one_of(&how), Solid::Csg(first), bore))
+        }
+        "group" => {
+            let mut part = |kind| solid(numbers, kind).moved(0.5, (p * 0.4).as_dvec3());
+            let inner = Group::new(vec![part("triangle"), part("patch"), part("torus")]);
+            Solid::Group(Group::new(vec![part("csg"), Solid::Group(inner), part("sphere")]))
         }
         _ => panic!("no kind `{kind}`"),
     }
