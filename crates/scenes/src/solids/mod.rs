@@ -168,7 +168,7 @@ mod tests {
             ),
             (
                 "[[solid]]\nkind = 'group'\nparts = [{ kind = 'box', min = [0,0,0], max = [1,1,1] }, { kind = 'sphere', center = [0,0,0], radius = -1 }]",
-                "line 7, solid 1 (group), part 2 (sphere): `radius` must be above 0",
+                "line 6, solid 1 (group), part 2 (sphere): `radius` must be above 0",
             ),
             ("[[solid]]\nkind = 'quadric'\ncoefficients = [1, 2]", "`coefficients` must be 10 numbers"),
         ] {
