@@ -39,25 +39,24 @@ impl Waiting {
     /// Those of the wanted pairs of a group that may hit. There must be room.
     #[inline(always)]
     pub fn add<S: Simd>(&mut self, s: S, spheres: &Values<S>, group: &Group, wanted: u32, rays: &Rays<S>) {
-        let (prepared, t_max) = rays.permuted(s, group);
-        let bounds = Spheres::bounds(s, &prepared, spheres, t_max);
+        let (prepared, _) = rays.permuted(s, group);
+        let limits = s.permute(s.load(&self.limits), s.load_bytes(group.rays));
+        let bounds = Spheres::bounds(s, &prepared, spheres, limits);
         let maybe = s.bits(bounds.maybe) & wanted;
         if maybe == 0 {
             return;
         }
-        let certain = s.bits(bounds.certain);
         let (mut low, mut high) = ([0.0; ROW], [0.0; ROW]);
         s.store(bounds.low, &mut low);
         s.store(bounds.high, &mut high);
+        let closer = s.and(bounds.certain, s.lt(bounds.high, limits));
+        for lane in ones(u64::from(s.bits(closer) & maybe)) {
+            let limit = &mut self.limits[group.pair(lane).1];
+            if high[lane] < *limit {
+                *limit = high[lane];
+            }
+        }
         for lane in ones(maybe.into()) {
-            let place = group.pair(lane).1;
-            let limit = &mut self.limits[place];
-            if low[lane] > *limit {
-                continue;
-            }
-            if certain >> lane & 1 != 0 {
-                *limit = limit.min(high[lane]);
-            }
             (self.places[self.len], self.slots[self.len]) = (group.rays[lane], group.slots[lane]);
             self.low[self.len] = low[lane];
             self.len += 1;
