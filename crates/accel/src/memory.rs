@@ -2,14 +2,51 @@
 
 use crate::BuildError;
 use crate::parallel::prelude::*;
-use crate::parallel::repeat_n;
+use crate::parallel::{extend, repeat_n};
+use bytemuck::Zeroable;
+use bytemuck::allocation::try_zeroed_vec;
 use std::path::{Path, PathBuf};
 
 /// A vector of equal values, written by all threads of the current pool: its memory is new to the process as a rule, and the
 /// system clears each page when it is first written to.
-pub fn filled<T: Clone + Send>(value: T, len: usize) -> Vec<T> {
+///
+/// # Errors
+/// Those of [`reserved`].
+pub fn filled<T: Clone + Send>(structure: &str, value: T, len: usize) -> Result<Vec<T>, BuildError> {
     const TASK: usize = 1 << 12;
-    repeat_n(value, len).with_min_len(TASK).collect()
+    let mut all = reserved(structure, len)?;
+    extend(&mut all, repeat_n(value, len).with_min_len(TASK));
+    Ok(all)
+}
+
+/// A vector of zeros, which the system gives as they are: no page is touched before it is used.
+///
+/// # Errors
+/// Those of [`reserved`].
+pub fn zeroed<T: Zeroable>(structure: &str, len: usize) -> Result<Vec<T>, BuildError> {
+    try_zeroed_vec(len).map_err(|()| too_large::<T>(structure, len))
+}
+
+/// Appends to a vector that may have no room left.
+///
+/// # Errors
+/// Those of [`reserved`].
+#[inline]
+pub fn append<T>(structure: &str, all: &mut Vec<T>, item: T) -> Result<(), BuildError> {
+    if all.len() == all.capacity() {
+        make_room(structure, all, 1)?;
+    }
+    all.push(item);
+    Ok(())
+}
+
+/// Room for so many more, and for as many again where a vector grows.
+///
+/// # Errors
+/// Those of [`reserved`].
+pub fn make_room<T>(structure: &str, all: &mut Vec<T>, more: usize) -> Result<(), BuildError> {
+    let len = all.len() + more;
+    all.try_reserve(more).map_err(|_| too_large::<T>(structure, len))
 }
 
 /// An empty vector with room for so many, for a structure that is being built: what grows with a scene is asked for and not taken
@@ -22,25 +59,36 @@ pub fn reserved<T>(structure: &str, len: usize) -> Result<Vec<T>, BuildError> {
     if room.try_reserve_exact(len).is_ok() {
         return Ok(room);
     }
+    Err(too_large::<T>(structure, len))
+}
+
+/// So many elements, which the system did not give.
+#[cold]
+fn too_large<T>(structure: &str, len: usize) -> BuildError {
     let bytes = len as u128 * size_of::<T>() as u128;
     // There is less, whatever is said.
     let limit = available_memory().min(bytes.saturating_sub(1));
-    Err(BuildError::TooLarge { structure: structure.into(), bytes, limit })
+    BuildError::TooLarge { structure: structure.into(), bytes, limit }
 }
 
 /// The elements of all vectors in order, moved by all threads of the current pool.
-pub fn concatenated<T: Copy + Send + Sync>(parts: &[Vec<T>]) -> Vec<T> {
-    let Some(first) = parts.iter().find_map(|part| part.first()) else { return Vec::new() };
+///
+/// # Errors
+/// Those of [`reserved`].
+pub fn concatenated<T: Copy + Send + Sync>(structure: &str, parts: &[Vec<T>]) -> Result<Vec<T>, BuildError> {
+    let Some(first) = parts.iter().find_map(|part| part.first()) else { return Ok(Vec::new()) };
     let len = parts.iter().map(Vec::len).sum();
     if crate::parallel::threads() == 1 || size_of::<T>() * len < WORTH_SHARING {
-        return parts.concat();
+        let mut all = reserved(structure, len)?;
+        parts.iter().for_each(|part| all.extend_from_slice(part));
+        return Ok(all);
     }
-    let mut all = filled(*first, len);
+    let mut all = filled(structure, *first, len)?;
     let mut rest = &mut all[..];
     let rooms: Vec<_> =
         parts.iter().map(|part| (part, rest.split_off_mut(..part.len()).expect("room for all"))).collect();
     rooms.into_par_iter().for_each(|(part, room)| room.copy_from_slice(part));
-    all
+    Ok(all)
 }
 
 /// Bytes from which on threads are asked to help moving them.
@@ -114,10 +162,10 @@ mod tests {
     fn vectors_are_joined_in_order_whatever_the_number_of_threads() {
         for (part, parts) in [(0, 3), (5, 4), (70_000, 7)] {
             let parts: Vec<Vec<u32>> = (0..parts).map(|i| (i * part..(i + 1) * part).collect()).collect();
-            let expected: Vec<u32> = parts.iter().flatten().copied().collect();
+            let expected: Result<Vec<u32>, BuildError> = Ok(parts.iter().flatten().copied().collect());
             for threads in [1, 3] {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                assert_eq!(pool.install(|| concatenated(&parts)), expected);
+                assert_eq!(pool.install(|| concatenated("x", &parts)), expected);
             }
         }
     }

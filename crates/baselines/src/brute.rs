@@ -33,18 +33,19 @@ impl Builder for Brute {
     fn build<'s>(&self, scene: &'s Scene, _: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
         struct Build(Level);
         impl<'s> WithObjects<'s> for Build {
-            type Out = Box<dyn Accel + 's>;
+            type Out = Result<Box<dyn Accel + 's>, BuildError>;
             fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
-                let order: Vec<u32> = (0..objects.len() as u32).collect();
-                Box::new(Built {
-                    blocks: objects.blocks(&order),
+                let mut order = accel::reserved("brute", objects.len())?;
+                order.extend(0..objects.len() as u32);
+                Ok(Box::new(Built {
+                    blocks: objects.blocks("brute", &order)?,
                     objects: objects.len(),
                     simd: self.0,
                     all: objects,
-                })
+                }))
             }
         }
-        Ok(primitives::with_objects(scene, self.kernel, Build(self.simd)))
+        primitives::with_objects(scene, self.kernel, Build(self.simd))
     }
 }
 

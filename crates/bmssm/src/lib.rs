@@ -5,6 +5,7 @@ mod dense;
 mod face;
 mod fast;
 mod general;
+mod id;
 mod raster;
 
 pub use accel::{

@@ -1,7 +1,7 @@
-//! Every large allocation of a grid or of dense maps, refused one after another: building ends by an error, and keeps nothing.
+//! Every large allocation of a build, refused one after another: building ends by an error, and keeps nothing.
 
-use accel::{Geometry, Mesh, Scene, Vec3, View, Workload};
-use harness::registry::{self, guarded_build};
+use accel::{Geometry, Mesh, Raster, Ray, RaySet, Scene, Vec3, View, Workload};
+use harness::registry::{self, Choice, guarded_build};
 
 #[global_allocator]
 static ALLOCATOR: heap::Counting = heap::Counting;
@@ -9,16 +9,17 @@ static ALLOCATOR: heap::Counting = heap::Counting;
 /// Above what 300 objects themselves take: what grows with cells, references and slices is larger.
 const LARGE: usize = 1 << 15;
 
-fn scene() -> Scene {
+fn scene(triangles: u32) -> Scene {
     let mut random = scenes::Random::new(7);
     let mut point = || Vec3::new(random.unit() as f32, random.unit() as f32, random.unit() as f32);
     let mut mesh = Mesh::default();
-    for i in 0..300 {
+    for i in 0..triangles {
         let corner = point();
         mesh.positions.extend([corner, corner + (point() - 0.5) * 0.2, corner + (point() - 0.5) * 0.2]);
         mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
-    let view = View { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 45.0 };
+    let (eye, target) = (Vec3::new(0.5, 0.5, 3.0), Vec3::splat(0.5));
+    let view = View { eye, target, up: Vec3::Y, fov_y_degrees: 45.0 };
     Scene { id: "allocations".into(), geometry: Geometry::Triangles(mesh), view }
 }
 
@@ -26,30 +27,64 @@ fn scene() -> Scene {
 #[test]
 fn refused_memory_is_an_error_and_nothing_is_kept() {
     heap::start_counting();
-    let scene = scene();
-    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    for (structure, least) in [
-        ("ssm:resolution=64,divide=off", 3),
-        ("ssm-list:resolution=48", 3),
-        ("bmssm-dense:resolution=4096", 3),
+    let (few, many) = (scene(300), scene(12_000));
+    let image = Raster::perspective(&few.view, 64, 64);
+    // Kept to the end: threads that end give back what they took.
+    let pools = [1, 3].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap());
+    let both = Workload { raster: Some(image), general: true };
+    for (structure, scene, workload, least) in [
+        ("ssm:resolution=64,divide=off", &few, Workload::GENERAL, 3),
+        ("ssm-list:resolution=48", &few, Workload::GENERAL, 3),
+        ("bmssm-dense:resolution=4096", &few, Workload::GENERAL, 3),
+        ("bmssm", &many, Workload::GENERAL, 17),
+        ("bmssm:geometry=scene,kernel=exact", &many, Workload::GENERAL, 16),
+        ("bmssm", &many, Workload::raster(image), 6),
+        ("bmssm", &many, both, 23),
     ] {
-        let choice = registry::parse(structure).unwrap();
-        let build = || guarded_build(&choice, &scene, &Workload::GENERAL).map(drop);
-        alone.install(build).unwrap();
-        let mut refused = 0;
-        loop {
-            let ((made, came), used) = heap::observe(|| {
-                heap::refusing(refused, LARGE, || {
-                    alone.install(build).map_err(|failure| failure.is_too_large())
-                })
-            });
-            assert_eq!(made, if came { Err(true) } else { Ok(()) }, "{structure}, allocation {refused}");
-            assert_eq!(used.expect("counting").left, 0, "{structure}, allocation {refused}");
-            if !came {
-                break;
-            }
-            refused += 1;
+        for pool in &pools {
+            let refused = refuse_each(structure, scene, &workload, pool);
+            assert!(refused >= least, "{structure}: {refused} large allocations");
         }
-        assert!(refused >= least, "{structure}: {refused} large allocations");
     }
+}
+
+/// How many allocations there were to be refused.
+fn refuse_each(structure: &str, scene: &Scene, workload: &Workload, pool: &rayon::ThreadPool) -> usize {
+    let choice = registry::parse(structure).unwrap();
+    let build = || guarded_build(&choice, scene, workload).map(drop);
+    // What threads allocate once, at their first task, belongs to no build.
+    (0..3).for_each(|_| pool.install(build).unwrap());
+    let mut refused = 0;
+    loop {
+        let ((made, came), used) = heap::observe(|| {
+            heap::refusing(refused, LARGE, || pool.install(build).map_err(|failure| failure.is_too_large()))
+        });
+        assert_eq!(made, if came { Err(true) } else { Ok(()) }, "{structure}, allocation {refused}");
+        let left = used.expect("counting").left;
+        // Queues of tasks may grow while others take from them.
+        let few = if pool.current_num_threads() == 1 { 0 } else { 1 << 12 };
+        assert!(left.abs() <= few, "{structure}, allocation {refused}: {left} bytes are left");
+        if !came {
+            pool.install(|| answers_as_brute_force(&choice, scene, workload));
+            return refused;
+        }
+        refused += 1;
+    }
+}
+
+/// What is built after all refusals is sound.
+fn answers_as_brute_force(choice: &Choice, scene: &Scene, workload: &Workload) {
+    let place = |i: u16, step: f32| (f32::from(i) * step).fract();
+    let origin = |i| Vec3::new(-0.3, place(i, 0.618), place(i, 0.414));
+    let list = (0..500).map(|i| Ray::new(origin(i), Vec3::new(1.0, 0.1, -0.05)));
+    let rays = workload.raster.map_or_else(|| RaySet::List(list.collect()), RaySet::Raster);
+    let brute = format!("brute:kernel={}", choice.built_in_kernel().unwrap());
+    let of = |choice: &Choice| {
+        let mut hits = vec![None; rays.len()];
+        guarded_build(choice, scene, workload).unwrap().trace(&rays, &mut hits);
+        hits
+    };
+    let hits = of(choice);
+    assert!(hits.iter().flatten().count() > 50);
+    assert_eq!(hits, of(&registry::parse(&brute).unwrap()));
 }

@@ -4,8 +4,8 @@
 use accel::dda::Walk;
 use accel::grid::Grid;
 use accel::{
-    Aabb, Accel, BuildError, Builder, Footprint, Geometry, Hit, Mesh, Nearest, Objects, Ray, Scene, Surface,
-    Workload,
+    Aabb, Accel, BuildError, Builder, Cancel, Footprint, Geometry, Hit, Mesh, Nearest, Objects, Ray, Scene,
+    Surface, Workload,
 };
 use bmssm::suite::general::{General, Settings};
 use harness::registry::{Choice, ChosenKernel, Entry};
@@ -105,8 +105,8 @@ impl<'s> PackedObjects for Rounded<'s> {
         *self
     }
 
-    fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        self.triangles.blocks(order)
+    fn blocks(&self, structure: &str, order: &[u32]) -> Result<Self::Blocks, BuildError> {
+        self.triangles.blocks(structure, order)
     }
 }
 
@@ -204,7 +204,7 @@ impl Builder for Planted {
                     stretch: 1024,
                     storage: bmssm::suite::general::Storage::Rows,
                 };
-                Box::new(Maps(General::new(&Rounded::new(mesh, inwards), settings)))
+                Box::new(Maps(General::new(&Rounded::new(mesh, inwards), settings, Cancel::NEVER)?))
             }
             Self::Walk { skips_corners } => Box::new(Cells::new(mesh, skips_corners)),
         })

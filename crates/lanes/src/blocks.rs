@@ -2,7 +2,7 @@
 
 use crate::packet::{NearestPacket, Packet, Pairs};
 use crate::simd::{ROW, Row, Simd};
-use accel::{Bounds, Common, Nearest, Objects, Ray};
+use accel::{Bounds, BuildError, Common, Nearest, Objects, Ray};
 
 /// Objects in a block: one bit each of a 64-bit word.
 pub const BLOCK: usize = 64;
@@ -22,8 +22,11 @@ pub trait PackedObjects: Objects + Copy {
     /// The boxes.
     fn shape(&self) -> Self::Shape;
 
-    /// Copies the objects into blocks: slot i holds object `order[i]`, or nothing for [`EMPTY_SLOT`].
-    fn blocks(&self, order: &[u32]) -> Self::Blocks;
+    /// Copies the objects into blocks for a structure: slot i holds object `order[i]`, or nothing for [`EMPTY_SLOT`].
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory.
+    fn blocks(&self, structure: &str, order: &[u32]) -> Result<Self::Blocks, BuildError>;
 
     /// Bytes of the blocks of so many slots, about: what is held against a limit before they are made.
     fn bytes_of_blocks(slots: usize) -> u128 {
@@ -31,8 +34,11 @@ pub trait PackedObjects: Objects + Copy {
     }
 
     /// The same without a copy of geometry where there is a way: tests read the scene's own buffers, which costs time and saves memory.
-    fn blocks_in_place(&self, order: &[u32]) -> Self::Blocks {
-        self.blocks(order)
+    ///
+    /// # Errors
+    /// As there.
+    fn blocks_in_place(&self, structure: &str, order: &[u32]) -> Result<Self::Blocks, BuildError> {
+        self.blocks(structure, order)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The numbers of packed objects in as few bytes as they need.
 
 use crate::EMPTY_SLOT;
+use accel::BuildError;
 use accel::parallel::prelude::*;
 
 /// Numbers by slot: three bytes each where all are below 2²⁴ − 1, else four.
@@ -15,18 +16,21 @@ const EMPTY_SHORT: u32 = EMPTY_SLOT >> 8;
 
 impl Ids {
     /// Slot i holds `order[i]`.
-    pub fn new(order: &[u32]) -> Self {
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory.
+    pub fn new(structure: &str, order: &[u32]) -> Result<Self, BuildError> {
         const TASK: usize = 1 << 14;
         let wide =
             order.par_chunks(TASK).any(|ids| ids.iter().any(|id| (EMPTY_SHORT..EMPTY_SLOT).contains(id)));
         let width = if wide { 4 } else { 3 };
-        let mut bytes = vec![0; order.len() * width];
+        let mut bytes = accel::zeroed(structure, order.len() * width)?;
         bytes.par_chunks_mut(TASK * width).zip(order.par_chunks(TASK)).for_each(|(bytes, ids)| {
             for (bytes, id) in bytes.chunks_exact_mut(width).zip(ids) {
                 bytes.copy_from_slice(&id.to_le_bytes()[..width]);
             }
         });
-        Self { bytes, wide }
+        Ok(Self { bytes, wide })
     }
 
     /// The number in a slot, or [`EMPTY_SLOT`].
@@ -68,7 +72,7 @@ mod tests {
             (vec![EMPTY_SLOT - 1, EMPTY_SLOT], 4),
             (vec![], 3),
         ] {
-            let ids = Ids::new(&order);
+            let ids = Ids::new("x", &order).unwrap();
             assert_eq!(ids.len(), order.len());
             assert_eq!(ids.bytes(), order.len() * width);
             assert!(order.iter().enumerate().all(|(slot, id)| ids.get(slot) == *id), "{order:?}");

@@ -3,7 +3,7 @@
 use crate::blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects};
 use crate::packet::{Lanes, NearestPacket, Packet};
 use crate::simd::{ROW, Simd};
-use accel::{Nearest, Objects, Ray};
+use accel::{BuildError, Nearest, Objects, Ray};
 
 /// Objects that know no packed form: those of a block are tested one by one, where the scene has them.
 pub trait Unpacked: Objects + Copy {}
@@ -16,8 +16,8 @@ impl<O: Unpacked> PackedObjects for O {
         *self
     }
 
-    fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        OneByOne::new(*self, order)
+    fn blocks(&self, structure: &str, order: &[u32]) -> Result<Self::Blocks, BuildError> {
+        OneByOne::new(*self, structure, order)
     }
 }
 
@@ -30,8 +30,13 @@ pub struct OneByOne<O> {
 
 impl<O: Objects> OneByOne<O> {
     /// Slot i holds object `order[i]`.
-    pub fn new(objects: O, order: &[u32]) -> Self {
-        Self { objects, order: order.to_vec() }
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory.
+    pub fn new(objects: O, structure: &str, order: &[u32]) -> Result<Self, BuildError> {
+        let mut slots = accel::reserved(structure, order.len())?;
+        slots.extend_from_slice(order);
+        Ok(Self { objects, order: slots })
     }
 }
 

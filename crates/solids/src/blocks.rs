@@ -4,7 +4,7 @@ use crate::frame::Frame;
 use crate::group::{Kind, Part, Slot};
 use crate::objects::{Precision, Solids};
 use crate::rows::{Cones, Packing, Prepared, Spheres, Triangles, load, splat};
-use accel::{Nearest, Objects, Ray};
+use accel::{BuildError, Nearest, Objects, Ray};
 use lanes::packet::{NearestPacket, Packet, Pairs, RayRows};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd, one_by_one};
 
@@ -36,10 +36,11 @@ pub struct ManyRays<S: Simd> {
 
 impl<'s> SolidBlocks<'s> {
     /// Slot i holds object `order[i]`.
-    pub fn new(solids: Solids<'s>, order: &[u32]) -> Self {
-        let (spheres, cones) = (Kind::new(&solids, order), Kind::new(&solids, order));
-        let triangles = Kind::new(&solids, order);
-        Self { solids, ids: Ids::new(order), spheres, cones, triangles }
+    pub fn new(solids: Solids<'s>, structure: &str, order: &[u32]) -> Result<Self, BuildError> {
+        let spheres = Kind::new(&solids, structure, order)?;
+        let cones = Kind::new(&solids, structure, order)?;
+        let triangles = Kind::new(&solids, structure, order)?;
+        Ok(Self { solids, ids: Ids::new(structure, order)?, spheres, cones, triangles })
     }
 
     fn frame(&self) -> &Frame {
@@ -236,8 +237,8 @@ impl<'s> PackedObjects for Solids<'s> {
         *self
     }
 
-    fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        SolidBlocks::new(*self, order)
+    fn blocks(&self, structure: &str, order: &[u32]) -> Result<Self::Blocks, BuildError> {
+        SolidBlocks::new(*self, structure, order)
     }
 
     fn bytes_of_blocks(slots: usize) -> u128 {

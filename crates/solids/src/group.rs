@@ -2,7 +2,7 @@
 
 use crate::objects::Solids;
 use crate::rows::{MOST_ROWS, Packing};
-use accel::vec_bytes;
+use accel::{BuildError, vec_bytes};
 use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, Simd};
 use std::marker::PhantomData;
 
@@ -74,15 +74,20 @@ impl<'a> Group<'a> {
 
 impl<K: Packing> Kind<K> {
     /// Those of the objects in an order that are of this kind.
-    pub fn new(solids: &Solids<'_>, order: &[u32]) -> Self {
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory.
+    pub fn new(solids: &Solids<'_>, structure: &str, order: &[u32]) -> Result<Self, BuildError> {
         let mut rows: Vec<Row> = Vec::new();
-        let mut places = Vec::with_capacity(order.len().div_ceil(ROW));
+        let mut places = accel::reserved(structure, order.len().div_ceil(ROW))?;
         for slots in order.chunks(ROW) {
             let (mut mask, group) = (0, rows.len() / K::ROWS);
             for (lane, object) in slots.iter().enumerate().filter(|(_, object)| **object != EMPTY_SLOT) {
                 let Some(numbers) = solids.numbers::<K>(*object) else { continue };
                 if mask == 0 {
-                    rows.resize((group + 1) * K::ROWS, Row([0.0; ROW]));
+                    for _ in 0..K::ROWS {
+                        accel::append(structure, &mut rows, Row([0.0; ROW]))?;
+                    }
                 }
                 mask |= 1 << lane;
                 write(&mut rows[group * K::ROWS..], &numbers[..K::ROWS], lane);
@@ -93,7 +98,7 @@ impl<K: Packing> Kind<K> {
             places = Vec::new();
         }
         rows.shrink_to_fit();
-        Self { rows, places, kind: PhantomData }
+        Ok(Self { rows, places, kind: PhantomData })
     }
 
     /// Bytes on the heap.

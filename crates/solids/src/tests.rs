@@ -21,7 +21,7 @@ impl Task for Both<'_, '_> {
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> usize {
         let Self(objects, order, rays) = self;
-        let blocks = objects.blocks(order);
+        let blocks = objects.blocks("x", order).unwrap();
         let mut hits = 0;
         for sixteen in rays.chunks_exact(ROW) {
             let mut expected = [Nearest::new(0.0); ROW];

@@ -10,6 +10,6 @@ pub mod serial;
 pub use chunks::{for_each_chunk, map_chunks, map_tasks};
 
 #[cfg(feature = "parallel")]
-pub use self::rayon::{join, prelude, repeat_n, threads};
+pub use self::rayon::{extend, join, prelude, repeat_n, threads};
 #[cfg(not(feature = "parallel"))]
-pub use self::serial::{join, prelude, repeat_n, threads};
+pub use self::serial::{extend, join, prelude, repeat_n, threads};

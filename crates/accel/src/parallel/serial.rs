@@ -10,6 +10,11 @@ pub fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, 
     (first(), second())
 }
 
+/// See [`Vec::extend`].
+pub fn extend<T>(all: &mut Vec<T>, items: impl IntoIterator<Item = T>) {
+    all.extend(items);
+}
+
 /// See [`std::iter::repeat_n`].
 pub fn repeat_n<T: Clone>(value: T, len: usize) -> Serial<std::iter::RepeatN<T>> {
     Serial(std::iter::repeat_n(value, len))

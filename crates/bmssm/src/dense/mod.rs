@@ -68,11 +68,15 @@ impl<'s> WithObjects<'s> for Build {
 
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         let Self(settings, workload) = self;
-        let order: Vec<u32> = (0..objects.len() as u32).collect();
+        let mut order = accel::reserved(ID, objects.len())?;
+        order.extend(0..objects.len() as u32);
         let maps = Maps::new(&objects.shape(), &settings, &workload)?;
         Ok(match settings.walk {
             Loop::Appendix => Box::new(maps.with(objects, Appendix(objects), &settings, &workload)),
-            Loop::Words => Box::new(maps.with(objects, Words(objects.blocks(&order)), &settings, &workload)),
+            Loop::Words => {
+                let blocks = objects.blocks(ID, &order)?;
+                Box::new(maps.with(objects, Words(blocks), &settings, &workload))
+            }
         })
     }
 }

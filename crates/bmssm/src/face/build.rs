@@ -2,7 +2,7 @@
 
 use super::{Bmssm, Camera, Image, Options};
 use crate::fast::Build;
-use accel::{Accel, BuildError, MeshRef, Objects, Position, Workload};
+use accel::{Accel, BuildError, Cancel, MeshRef, Objects, Position, Workload};
 use primitives::{Guarded, WithObjects, with_triangles};
 
 impl<'s> Bmssm<'s> {
@@ -98,7 +98,7 @@ impl Options {
         workload: Workload,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
         let mesh = MeshRef::new(positions, triangles)?;
-        with_triangles(mesh, self.settings.kernel, Build { settings: self.settings, workload })
+        with_triangles(mesh, self.settings.kernel, self.way(workload))
     }
 
     fn objects<'s, O: Objects>(
@@ -106,6 +106,10 @@ impl Options {
         objects: &'s O,
         workload: Workload,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
-        Build { settings: self.settings, workload }.objects(Guarded::new(objects)?)
+        self.way(workload).objects(Guarded::new(objects)?)
+    }
+
+    fn way(&self, workload: Workload) -> Build<'static> {
+        Build { settings: self.settings, workload, cancel: Cancel::NEVER }
     }
 }

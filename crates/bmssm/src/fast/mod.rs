@@ -10,12 +10,11 @@ pub use crate::general::Storage;
 pub use plan::Plan;
 pub use settings::Settings;
 
-use accel::{Accel, BuildError, Builder, Scene, Workload};
+use crate::id::ID;
+use accel::{Accel, BuildError, Builder, Cancel, Scene, Workload};
 use lanes::PackedObjects;
 use primitives::WithObjects;
 use serve::Built;
-
-const ID: &str = "bmssm";
 
 /// Builds `bmssm`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,28 +47,37 @@ impl Builder for Bmssm {
     }
 
     fn build<'s>(&self, scene: &'s Scene, workload: &Workload) -> Result<Box<dyn Accel + 's>, BuildError> {
-        let build = Build { settings: self.settings, workload: *workload };
+        self.build_unless(scene, workload, Cancel::NEVER)
+    }
+
+    fn build_unless<'s>(
+        &self,
+        scene: &'s Scene,
+        workload: &Workload,
+        cancel: Cancel,
+    ) -> Result<Box<dyn Accel + 's>, BuildError> {
+        let build = Build { settings: self.settings, workload: *workload, cancel };
         primitives::with_objects(scene, self.settings.kernel, build)
     }
 }
 
 /// Builds for objects of any kind.
-pub(crate) struct Build {
+pub(crate) struct Build<'c> {
     pub settings: Settings,
     pub workload: Workload,
+    pub cancel: Cancel<'c>,
 }
 
-impl<'s> WithObjects<'s> for Build {
+impl<'s> WithObjects<'s> for Build<'_> {
     type Out = Result<Box<dyn Accel + 's>, BuildError>;
 
     fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
         let limit = self.settings.memory.unwrap_or_else(accel::available_memory);
         let plan = Plan::new(&self.settings, objects.len(), &self.workload, limit, O::bytes_of_blocks);
-        let too_large = |bytes| BuildError::TooLarge { structure: ID.into(), bytes, limit };
         if plan.beside > limit {
-            return Err(too_large(plan.beside));
+            return Err(BuildError::TooLarge { structure: ID.into(), bytes: plan.beside, limit });
         }
-        Ok(Box::new(Built::new(objects, plan, limit).map_err(too_large)?))
+        Ok(Box::new(Built::new(objects, plan, limit, self.cancel)?))
     }
 }
 

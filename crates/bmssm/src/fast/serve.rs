@@ -4,7 +4,7 @@ use super::Plan;
 use crate::general::General;
 use crate::raster::{Bytes, RasterMaps};
 use accel::parallel::for_each_chunk;
-use accel::{Accel, Counters, Footprint, Hit, Ray, RaySet};
+use accel::{Accel, BuildError, Cancel, Counters, Footprint, Hit, Ray, RaySet};
 use lanes::PackedObjects;
 
 /// What a plan built.
@@ -30,13 +30,13 @@ impl<O: PackedObjects> Built<O> {
     /// Builds what the plan names.
     ///
     /// # Errors
-    /// The bytes that it would take, if they are more than `limit`.
-    pub fn new(objects: O, plan: Plan, limit: u128) -> Result<Self, u128> {
+    /// [`BuildError::TooLarge`] if it would take more than `limit` or than the system gives, and [`BuildError::Cancelled`].
+    pub fn new(objects: O, plan: Plan, limit: u128, cancel: Cancel) -> Result<Self, BuildError> {
         // The image's maps are built first, and are there while the others are built.
         let allowed = Bytes { held: limit.saturating_sub(plan.beside), peak: limit };
-        let image = |(raster, settings)| RasterMaps::build(objects, &raster, settings, allowed);
+        let image = |(raster, settings)| RasterMaps::build(objects, &raster, settings, allowed, cancel);
         let raster = plan.raster.map(image).transpose()?;
-        let general = plan.general.map(|settings| General::new(&objects, settings));
+        let general = plan.general.map(|settings| General::new(&objects, settings, cancel)).transpose()?;
         Ok(Self { objects, plan, raster, general })
     }
 

@@ -1,10 +1,11 @@
 //! Boxes in the making of an order.
 
 use super::unit_box::UnitBox;
+use crate::id::ID;
 use accel::grid::Grid;
 use accel::parallel::map_chunks;
 use accel::parallel::prelude::*;
-use accel::{Aabb, Bounds, Vec3, filled, morton};
+use accel::{Aabb, Bounds, BuildError, Cancel, Vec3, filled, morton};
 use lanes::{Level, Simd, Task};
 
 /// A box, the number of what is in it, and how many objects that is.
@@ -146,11 +147,18 @@ const CHUNK: usize = 1 << 12;
 
 impl Scene {
     /// Of all objects.
-    pub fn new<B: Bounds>(objects: &B, simd: Level) -> Self {
-        let mut items = filled(Item(Extremes { low: [0.0; 4], high: [0.0; 4] }), objects.len());
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory, and [`BuildError::Cancelled`].
+    pub fn new<B: Bounds>(objects: &B, simd: Level, cancel: Cancel) -> Result<Self, BuildError> {
+        let mut items = filled(ID, Item(Extremes { low: [0.0; 4], high: [0.0; 4] }), objects.len())?;
         let found = map_chunks(&mut items, CHUNK, &|chunk, items| {
+            if cancel.is_asked() {
+                return (Extremes::NONE, Spread::default());
+            }
             simd.run(Found { objects, first: chunk * CHUNK, items })
         });
+        cancel.check(ID)?;
         let (mut all, mut spread) = (Extremes::NONE, Spread::default());
         for (range, part) in &found {
             all.gather_signed(range);
@@ -164,10 +172,15 @@ impl Scene {
         let longest = extent.max_element();
         let extent = (if longest > 0.0 { extent / longest } else { extent }).to_array();
         let curve = spread.curve(&frame, extent);
-        let mut keys = vec![0; items.len()];
+        let mut keys = accel::zeroed(ID, items.len())?;
         let chunks = items.par_chunks_mut(CHUNK).zip(keys.par_chunks_mut(CHUNK));
-        chunks.for_each(|(items, keys)| simd.run(Unit { frame: &frame, curve, extent, items, keys }));
-        Self { frame, extent, items, keys }
+        chunks.for_each(|(items, keys)| {
+            if !cancel.is_asked() {
+                simd.run(Unit { frame: &frame, curve, extent, items, keys });
+            }
+        });
+        cancel.check(ID)?;
+        Ok(Self { frame, extent, items, keys })
     }
 }
 

@@ -4,7 +4,6 @@ use super::item::Item;
 use super::maps::BlockMaps;
 use super::order;
 use super::tree::Node;
-use accel::morton;
 use lanes::BLOCK;
 
 /// The most bytes at any moment of building maps over so many objects, built by so many threads, whose geometry takes `copy` bytes for a number of slots.
@@ -13,7 +12,7 @@ pub fn bytes(objects: usize, threads: usize, copy: impl Fn(usize) -> u128) -> u1
     let (blocks, parts) = (most_blocks(objects), most_parts(objects));
     let slots = blocks * BLOCK;
     // Boxes with their keys while these are sorted, and then with their copies along the curve.
-    let sorting = objects * (item + key) + morton::sort_bytes(objects, threads);
+    let sorting = objects * (item + key) + accel::keys::sort_bytes(objects, threads);
     let copying = objects * (2 * item + key);
     // Clusters as they are found and as they are joined; then joined alone, and as much again to split them.
     let clusters = order::most_clusters(objects) * item;

@@ -19,8 +19,9 @@ mod tree;
 mod unit_box;
 mod visit;
 
+use crate::id::ID;
 use accel::grid::Grid;
-use accel::{Counters, Footprint, Hit, Nearest, Ray, vec_bytes};
+use accel::{BuildError, Cancel, Counters, Footprint, Hit, Nearest, Ray, vec_bytes};
 use item::{Item, Scene};
 use lanes::{Blocks, Level, PackedObjects, Simd, Task};
 use maps::BlockMaps;
@@ -92,19 +93,24 @@ pub struct General<O: PackedObjects> {
 
 impl<O: PackedObjects> General<O> {
     /// Builds the maps of all `objects`, in the current rayon pool.
-    pub fn new(objects: &O, settings: Settings) -> Self {
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory, and [`BuildError::Cancelled`].
+    pub fn new(objects: &O, settings: Settings, cancel: Cancel) -> Result<Self, BuildError> {
         let simd = settings.simd;
-        let Scene { frame, extent, items, keys } = Scene::new(&objects.shape(), simd);
+        let Scene { frame, extent, items, keys } = Scene::new(&objects.shape(), simd, cancel)?;
         let shape = Shape { extent };
-        let Order { slots, maps, blocks } = Order::new(&shape, items, keys, settings);
+        let Order { slots, maps, blocks } = Order::new(&shape, items, keys, settings, cancel)?;
         let spread = mean_side(&blocks);
-        let nodes = tree::over(&shape, blocks, simd);
+        let nodes = tree::over(&shape, blocks, simd)?;
+        cancel.check(ID)?;
         let len = objects.len();
         let objects = match settings.storage {
-            Storage::Rows => objects.blocks(&slots),
-            Storage::Scene => objects.blocks_in_place(&slots),
+            Storage::Rows => objects.blocks(ID, &slots)?,
+            Storage::Scene => objects.blocks_in_place(ID, &slots)?,
         };
-        Self { frame, maps, nodes, spread, objects, len, simd }
+        cancel.check(ID)?;
+        Ok(Self { frame, maps, nodes, spread, objects, len, simd })
     }
 
     /// The nearest hit of each ray.

@@ -5,8 +5,10 @@ use super::Settings;
 use super::item::{Extremes, Item, is_large};
 use super::maps::BlockMaps;
 use super::split::{Divide, Left, Scratch, Shape};
+use crate::id::ID;
+use accel::parallel::extend;
 use accel::parallel::prelude::*;
-use accel::{concatenated, filled, morton};
+use accel::{BuildError, Cancel, concatenated, filled};
 use lanes::{BLOCK, EMPTY_SLOT, Level, Simd, Task};
 
 /// The objects in order, block by block.
@@ -21,31 +23,45 @@ pub struct Order {
 
 impl Order {
     /// Orders objects with these boxes and keys.
-    pub fn new(shape: &Shape, boxes: Vec<Item>, keys: Vec<u64>, settings: Settings) -> Self {
-        let keys = morton::sort_by_key(keys);
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory, and [`BuildError::Cancelled`].
+    pub fn new(
+        shape: &Shape,
+        boxes: Vec<Item>,
+        keys: Vec<u64>,
+        settings: Settings,
+        cancel: Cancel,
+    ) -> Result<Self, BuildError> {
+        let keys = accel::keys::sort(ID, keys)?;
+        cancel.check(ID)?;
         // Copied at once, as nothing but the copies then has to wait for memory.
         let along = |key: &u64| boxes[*key as u32 as usize];
-        let items: Vec<Item> = keys.par_iter().with_min_len(CHUNK).map(along).collect();
+        let mut items = accel::reserved(ID, keys.len())?;
+        extend(&mut items, keys.par_iter().with_min_len(CHUNK).map(along));
         drop(boxes);
+        cancel.check(ID)?;
         let small = keys.partition_point(|key| !is_large(*key));
-        let mut small_clusters = clusters(&items, &keys[..small], 0);
-        let mut large_clusters = clusters(&items, &keys[small..], small);
+        let mut small_clusters = clusters(&items, &keys[..small], 0)?;
+        let mut large_clusters = clusters(&items, &keys[small..], small)?;
         drop(keys);
+        cancel.check(ID)?;
         let most = small_clusters.len().max(large_clusters.len());
-        let (mut room, mut marks) = (vec![Item::EMPTY; most], vec![0; most]);
+        let (mut room, mut marks) = (filled(ID, Item::EMPTY, most)?, accel::zeroed(ID, most)?);
         let mut halve =
             |clusters| split(shape, clusters, Scratch { items: &mut room, marks: &mut marks }, settings.simd);
         let mut parts = halve(&mut small_clusters);
         parts.extend(halve(&mut large_clusters));
         drop((room, marks));
+        cancel.check(ID)?;
         let blocks = |part: &Part| part.objects.div_ceil(BLOCK);
         let all = parts.iter().map(blocks).sum();
         let mut order = Self {
-            slots: filled(EMPTY_SLOT, all * BLOCK),
-            maps: filled(BlockMaps::EMPTY, all),
-            blocks: vec![Item::EMPTY; all],
+            slots: filled(ID, EMPTY_SLOT, all * BLOCK)?,
+            maps: filled(ID, BlockMaps::EMPTY, all)?,
+            blocks: filled(ID, Item::EMPTY, all)?,
         };
-        let mut rooms = Vec::with_capacity(parts.len());
+        let mut rooms = accel::reserved(ID, parts.len())?;
         let (mut slots, mut maps, mut boxed) =
             (&mut order.slots[..], &mut order.maps[..], &mut order.blocks[..]);
         let mut first = 0;
@@ -60,10 +76,12 @@ impl Order {
             first += n as u32;
             rooms.push((part, room));
         }
-        rooms.into_par_iter().for_each_init(Buffers::default, |buffers, (part, room)| {
-            settings.simd.run(Cut { shape, items: &items, part, room, buffers, stretch: settings.stretch });
+        let cut = rooms.into_par_iter().map_init(Buffers::default, |buffers, (part, room)| {
+            cancel.check(ID)?;
+            settings.simd.run(Cut { shape, items: &items, part, room, buffers, stretch: settings.stretch })
         });
-        order
+        cut.collect::<Result<(), BuildError>>()?;
+        Ok(order)
     }
 }
 
@@ -82,7 +100,10 @@ pub fn most_clusters(objects: usize) -> usize {
 
 /// Runs of neighbours along the curve that share a cell: the place of the first among `items`, and how many there
 /// are. The first key is that of the item at `place`.
-fn clusters(items: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
+///
+/// # Errors
+/// [`BuildError::TooLarge`] if the system doesn't give the memory.
+fn clusters(items: &[Item], keys: &[u64], place: usize) -> Result<Vec<Item>, BuildError> {
     let bit = cell_bit(keys);
     let cell = |key: u64| key >> 32 >> bit;
     // Tasks begin where a cell does, so that there are the same clusters whatever the number of threads.
@@ -96,7 +117,7 @@ fn clusters(items: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
     }
     let of = |task: usize| {
         let end = begins.get(task + 1).copied().unwrap_or(keys.len());
-        let mut clusters = Vec::with_capacity((end - begins[task]) / CLUSTER);
+        let mut clusters = accel::reserved(ID, (end - begins[task]) / CLUSTER)?;
         let mut first = begins[task];
         while first < end {
             let here = cell(keys[first]);
@@ -106,13 +127,14 @@ fn clusters(items: &[Item], keys: &[u64], place: usize) -> Vec<Item> {
                 range.gather(&items[place + next].extremes());
                 next += 1;
             }
-            clusters.push(Item::new((place + first) as u32, (next - first) as u32, &range.bounds()));
+            let cluster = Item::new((place + first) as u32, (next - first) as u32, &range.bounds());
+            accel::append(ID, &mut clusters, cluster)?;
             first = next;
         }
-        clusters
+        Ok(clusters)
     };
-    let tasks: Vec<Vec<Item>> = (0..begins.len()).into_par_iter().map(of).collect();
-    concatenated(&tasks)
+    let tasks: Result<Vec<Vec<Item>>, BuildError> = (0..begins.len()).into_par_iter().map(of).collect();
+    concatenated(ID, &tasks?)
 }
 
 /// The lowest bit of codes that tells cells apart if clusters are to hold [`CLUSTER`] objects on average.
@@ -215,10 +237,10 @@ struct Cut<'a, 'o> {
 }
 
 impl Task for Cut<'_, '_> {
-    type Out = ();
+    type Out = Result<(), BuildError>;
 
     #[inline(always)]
-    fn run<S: Simd>(self, s: S) {
+    fn run<S: Simd>(self, s: S) -> Self::Out {
         let Self { shape, items: all, part, room, buffers, stretch } = self;
         let Buffers { items, scratch, marks, open } = buffers;
         let Part { clusters, objects } = part;
@@ -226,9 +248,9 @@ impl Task for Cut<'_, '_> {
         if scratch.len() < objects {
             // Given back first, and no more than a part has: together threads take no more than all parts have.
             (*items, *scratch, *marks) = Default::default();
-            items.reserve_exact(objects);
-            *scratch = vec![Item::EMPTY; objects];
-            *marks = vec![0; objects];
+            *items = accel::reserved(ID, objects)?;
+            *scratch = filled(ID, Item::EMPTY, objects)?;
+            *marks = accel::zeroed(ID, objects)?;
         }
         open.clear();
         // By clusters, as far as wanted. What is left over of a block belongs to the next stretch.
@@ -279,6 +301,7 @@ impl Task for Cut<'_, '_> {
                 open.push((first, middle, !swapped));
             }
         }
+        Ok(())
     }
 }
 
@@ -286,6 +309,7 @@ impl Task for Cut<'_, '_> {
 mod tests {
     use super::super::unit_box::UnitBox;
     use super::*;
+    use accel::morton;
 
     fn point(number: u32, at: [f32; 3]) -> Item {
         Item::new(number, 1, &UnitBox { min: at, max: at })
@@ -295,7 +319,7 @@ mod tests {
     fn clusters_are_runs_of_all_objects() {
         let boxes: Vec<Item> = (0..5000u32).map(|i| point(i, [i as f32 / 5000.0, 0.0, 0.0])).collect();
         let keys: Vec<u64> = (0..5000).map(|i| morton::keyed(i / 5 * 8, i)).collect();
-        let clusters = clusters(&boxes, &keys, 0);
+        let clusters = clusters(&boxes, &keys, 0).unwrap();
         let mut next = 0;
         for cluster in &clusters {
             assert_eq!(cluster.number(), next);
@@ -311,7 +335,7 @@ mod tests {
         let boxes: Vec<Item> = (0..9000).map(|i| point(i, [0.5; 3])).collect();
         let keys = (0..9000).map(|i| morton::keyed(7, i)).collect();
         let settings = Settings { simd: Level::Portable, stretch: 128, storage: super::super::Storage::Rows };
-        let order = Order::new(&Shape { extent: [1.0; 3] }, boxes, keys, settings);
+        let order = Order::new(&Shape { extent: [1.0; 3] }, boxes, keys, settings, Cancel::NEVER).unwrap();
         assert_eq!(order.blocks.len(), order.maps.len());
         let mut slots: Vec<u32> = order.slots.into_iter().filter(|slot| *slot != EMPTY_SLOT).collect();
         slots.sort_unstable();

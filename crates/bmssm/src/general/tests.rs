@@ -92,7 +92,8 @@ impl<'s> WithObjects<'s> for Differences<'_> {
     fn objects<O: PackedObjects + 's>(self, objects: O) -> usize {
         let Self(rays, reference, simd, stretch) = self;
         let of = |storage| {
-            differences(&General::new(&objects, Settings { simd, stretch, storage }), rays, reference)
+            let settings = Settings { simd, stretch, storage };
+            differences(&General::new(&objects, settings, Cancel::NEVER).unwrap(), rays, reference)
         };
         Storage::ALL.map(of).iter().sum()
     }
@@ -194,7 +195,9 @@ fn the_tree_holds_every_object_once_and_full_blocks() {
             let maps = General::new(
                 &objects,
                 Settings { simd: Level::Portable, stretch: MOST_STRETCH, storage: Storage::Rows },
-            );
+                Cancel::NEVER,
+            )
+            .unwrap();
             let slots = (0..maps.maps.len() * BLOCK).map(|slot| maps.objects.object(slot));
             (slots.filter(|object| *object != EMPTY_SLOT).collect(), maps.maps.len())
         }
@@ -227,7 +230,7 @@ fn neighbours_are_taken_together() {
         type Out = u64;
         fn objects<O: PackedObjects + 's>(self, objects: O) -> u64 {
             let settings = Settings { simd: Level::Portable, stretch: MOST_STRETCH, storage: Storage::Rows };
-            General::new(&objects, settings).count(self.0, true).blocks
+            General::new(&objects, settings, Cancel::NEVER).unwrap().count(self.0, true).blocks
         }
     }
     let scene = scene(triangles(6, 5000, 1.0, Vec3::ZERO));

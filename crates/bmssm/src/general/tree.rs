@@ -6,7 +6,9 @@
 use super::item::{Extremes, Item};
 use super::split::{Divide, Left, Scratch, Shape};
 use super::unit_box::UnitBox;
+use crate::id::ID;
 use accel::parallel::prelude::*;
+use accel::{BuildError, filled};
 use lanes::{Level, ROW, Row};
 
 /// Most children of a node.
@@ -64,20 +66,23 @@ struct Part<'i> {
 const PARALLEL: usize = 1 << 10;
 
 /// The tree over blocks, given by their boxes and numbers; the root is the first node. Empty where there is no block.
-pub fn over(shape: &Shape, mut blocks: Vec<Item>, simd: Level) -> Vec<Node> {
+///
+/// # Errors
+/// [`BuildError::TooLarge`] if the system doesn't give the memory.
+pub fn over(shape: &Shape, mut blocks: Vec<Item>, simd: Level) -> Result<Vec<Node>, BuildError> {
     if blocks.is_empty() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
-    let (mut items, mut marks) = (blocks.clone(), vec![0; blocks.len()]);
+    let (mut items, mut marks) = (filled(ID, Item::EMPTY, blocks.len())?, accel::zeroed(ID, blocks.len())?);
     let scratch = Scratch { items: &mut items, marks: &mut marks };
     let bounds = Extremes::of(&blocks).bounds();
-    let mut nodes = grown(shape, Part { items: &mut blocks, bounds }, scratch, simd);
+    let mut nodes = grown(shape, Part { items: &mut blocks, bounds }, scratch, simd)?;
     nodes.shrink_to_fit();
-    nodes
+    Ok(nodes)
 }
 
 /// The tree over a part. Children are trees of their own where they are worth it, whatever the number of threads.
-fn grown(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> Vec<Node> {
+fn grown(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> Result<Vec<Node>, BuildError> {
     if part.items.len() < PARALLEL {
         return grown_alone(shape, part, scratch, simd);
     }
@@ -91,9 +96,9 @@ fn grown(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> Vec<No
             _ => tasks.push((lane, part.bounds, rest.take(part.items.len()), part)),
         }
     }
-    let grow = |(lane, bounds, room, part)| (lane, bounds, grown(shape, part, room, simd));
-    let trees: Vec<_> = tasks.into_par_iter().map(grow).collect();
-    let mut nodes = Vec::with_capacity(1 + trees.iter().map(|(.., tree)| tree.len()).sum::<usize>());
+    let grow = |(lane, bounds, room, part)| Ok((lane, bounds, grown(shape, part, room, simd)?));
+    let trees: Vec<_> = tasks.into_par_iter().map(grow).collect::<Result<_, BuildError>>()?;
+    let mut nodes = accel::reserved(ID, 1 + trees.iter().map(|(.., tree)| tree.len()).sum::<usize>())?;
     nodes.push(root);
     for (lane, bounds, mut tree) in trees {
         let first = nodes.len() as u32;
@@ -101,12 +106,17 @@ fn grown(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> Vec<No
         tree.iter_mut().for_each(|node| node.move_by(first));
         nodes.append(&mut tree);
     }
-    nodes
+    Ok(nodes)
 }
 
 /// The tree over a part, by one thread.
-fn grown_alone(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> Vec<Node> {
-    let mut nodes = Vec::with_capacity(part.items.len().div_ceil(WIDTH / 2));
+fn grown_alone(
+    shape: &Shape,
+    part: Part,
+    mut scratch: Scratch,
+    simd: Level,
+) -> Result<Vec<Node>, BuildError> {
+    let mut nodes: Vec<Node> = accel::reserved(ID, part.items.len().div_ceil(WIDTH / 2).max(1))?;
     nodes.push(Node::EMPTY);
     let mut open = vec![(0, part)];
     while let Some((index, part)) = open.pop() {
@@ -116,11 +126,11 @@ fn grown_alone(shape: &Shape, part: Part, mut scratch: Scratch, simd: Level) -> 
             nodes[index].set(lane, &part.bounds, what);
             if part.items.len() > 1 {
                 open.push((nodes.len(), part));
-                nodes.push(Node::EMPTY);
+                accel::append(ID, &mut nodes, Node::EMPTY)?;
             }
         }
     }
-    nodes
+    Ok(nodes)
 }
 
 /// Splits the part of the largest surface until there are enough children.

@@ -4,8 +4,9 @@ use super::maps::{Block, GROUP, GROUPS, TileMaps};
 use super::memory::{Bytes, Image};
 use super::order::{Shown, joined, shown, sorted};
 use super::{RasterMaps, Settings, THICKNESS};
+use crate::id::ID;
 use accel::parallel::prelude::*;
-use accel::{Raster, concatenated, filled};
+use accel::{BuildError, Cancel, Raster, concatenated, filled};
 use lanes::{BLOCK, EMPTY_SLOT, PackedObjects, Simd, Task, prefetch};
 
 /// Blocks handled by one task.
@@ -23,17 +24,26 @@ impl<O: PackedObjects> RasterMaps<O> {
     /// Builds the maps of `raster` in the current rayon pool, within what is allowed.
     ///
     /// # Errors
-    /// The bytes that would be taken, as soon as it is known that they are too many.
-    pub fn build(objects: O, raster: &Raster, settings: Settings, allowed: Bytes) -> Result<Self, u128> {
+    /// [`BuildError::TooLarge`] as soon as it is known that more would be taken than is allowed or the system gives, and
+    /// [`BuildError::Cancelled`].
+    pub fn build(
+        objects: O,
+        raster: &Raster,
+        settings: Settings,
+        allowed: Bytes,
+        cancel: Cancel,
+    ) -> Result<Self, BuildError> {
         let image = |shown, copy| Image { raster, settings: &settings, objects: objects.len(), shown, copy };
         image(0, 0).bytes(0).check(allowed)?;
-        let shown = shown(objects.shape(), raster, settings.simd);
+        let shown = shown(objects.shape(), raster, settings.simd, cancel)?;
         let count = shown.iter().map(Vec::len).sum();
         let image = image(count, O::bytes_of_blocks(count.next_multiple_of(BLOCK)));
-        let Laid { blocks, words, ids } = laid(shown, image, allowed)?;
+        let Laid { blocks, words, ids } = laid(shown, image, allowed, cancel)?;
         let tiles = |pixels: u32| pixels.div_ceil(THICKNESS).div_ceil(settings.tile);
-        let tiles = TileMaps::new(&blocks, tiles(raster.rows), tiles(raster.cols), settings.tile);
-        let geometry = objects.blocks(&ids);
+        let tiles = TileMaps::new(&blocks, tiles(raster.rows), tiles(raster.cols), settings.tile)?;
+        cancel.check(ID)?;
+        let geometry = objects.blocks(ID, &ids)?;
+        cancel.check(ID)?;
         Ok(Self { objects, raster: *raster, settings, shown: count, geometry, blocks, words, tiles })
     }
 }
@@ -46,35 +56,39 @@ struct Laid {
 }
 
 /// Puts the objects in blocks, the nearest block first.
-fn laid(shown: Vec<Vec<Shown>>, image: Image, allowed: Bytes) -> Result<Laid, u128> {
+fn laid(shown: Vec<Vec<Shown>>, image: Image, allowed: Bytes, cancel: Cancel) -> Result<Laid, BuildError> {
     let Image { raster, settings, .. } = image;
     image.bytes(0).check(allowed)?;
-    let shown = joined(shown);
-    let order = sorted(&shown, raster, settings);
+    let shown = joined(shown)?;
+    let order = sorted(&shown, raster, settings)?;
+    cancel.check(ID)?;
     // Counted only where it may matter.
     if image.bytes(image.most_words()).check(allowed).is_err() {
         image.bytes(words(&shown, &order)).check(allowed)?;
     }
-    let mut parts: Vec<Part> = order
-        .par_chunks(CHUNK * BLOCK)
-        .map(|slots| settings.simd.run(Registered { shown: &shown, slots }))
-        .collect();
+    let registered = order.par_chunks(CHUNK * BLOCK).map(|slots| {
+        cancel.check(ID)?;
+        settings.simd.run(Registered { shown: &shown, slots })
+    });
+    let mut parts = registered.collect::<Result<Vec<Part>, BuildError>>()?;
     drop((order, shown));
     let mut words = 0;
-    let mut unordered = Vec::with_capacity(image.shown.div_ceil(BLOCK));
+    let mut unordered = accel::reserved(ID, image.shown.div_ceil(BLOCK))?;
     for part in &parts {
         unordered.extend(part.blocks.iter().map(|b| Block { words: b.words + words, ..*b }));
         words += part.words.len() as u32;
     }
     let apart: Vec<_> = parts.iter_mut().map(|part| std::mem::take(&mut part.words)).collect();
-    let words = concatenated(&apart);
+    let words = concatenated(ID, &apart)?;
     drop(apart);
     // Depths are not negative, so their bits are ordered as they are. Words stay in the order of places.
-    let mut nearest_first: Vec<(u32, u32)> =
-        unordered.iter().zip(0..).map(|(block, i)| (block.depth[0].to_bits(), i)).collect();
+    let mut nearest_first: Vec<(u32, u32)> = accel::reserved(ID, unordered.len())?;
+    nearest_first.extend(unordered.iter().zip(0..).map(|(block, i)| (block.depth[0].to_bits(), i)));
     nearest_first.sort_unstable();
-    let blocks: Vec<Block> = nearest_first.iter().map(|&(_, i)| unordered[i as usize]).collect();
-    let mut ids = filled(EMPTY_SLOT, blocks.len() * BLOCK);
+    let mut blocks: Vec<Block> = accel::reserved(ID, unordered.len())?;
+    blocks.extend(nearest_first.iter().map(|&(_, i)| unordered[i as usize]));
+    cancel.check(ID)?;
+    let mut ids = filled(ID, EMPTY_SLOT, blocks.len() * BLOCK)?;
     ids.par_chunks_exact_mut(BLOCK).zip(&nearest_first).with_min_len(CHUNK).for_each(|(ids, &(_, i))| {
         let (part, block) = (i as usize / CHUNK, i as usize % CHUNK);
         ids.copy_from_slice(&parts[part].ids[block * BLOCK..][..BLOCK]);
@@ -100,28 +114,28 @@ struct Registered<'a> {
 }
 
 impl Task for Registered<'_> {
-    type Out = Part;
+    type Out = Result<Part, BuildError>;
 
     #[inline(always)]
-    fn run<S: Simd>(self, _: S) -> Part {
-        let mut part = Part::default();
-        part.ids.reserve_exact(self.slots.len().next_multiple_of(BLOCK));
+    fn run<S: Simd>(self, _: S) -> Self::Out {
+        let ids = accel::reserved(ID, self.slots.len().next_multiple_of(BLOCK))?;
+        let mut part = Part { ids, ..Part::default() };
         for (i, block) in self.slots.chunks(BLOCK).enumerate() {
             // They lie anywhere in memory.
             for slot in self.slots.iter().skip((i + 1) * BLOCK).take(BLOCK) {
                 self.shown.get(*slot as u32 as usize).map(prefetch);
             }
-            part.push(block.iter().map(|&i| self.shown[i as u32 as usize]));
+            part.push(block.iter().map(|&i| self.shown[i as u32 as usize]))?;
         }
         part.words.shrink_to_fit();
-        part
+        Ok(part)
     }
 }
 
 impl Part {
     /// Appends a block.
     #[inline(always)]
-    fn push(&mut self, objects: impl Iterator<Item = Shown>) {
+    fn push(&mut self, objects: impl Iterator<Item = Shown>) -> Result<(), BuildError> {
         let (mut slots, mut count) = ([Shown::default(); BLOCK], 0);
         let mut depths = [NOTHING; BLOCK];
         let (mut row, mut row_end, mut col, mut col_end) = (u32::MAX, 0, u32::MAX, 0);
@@ -143,6 +157,7 @@ impl Part {
         }
         let first = self.words.len();
         let block = Block { words: first as u32, row, rows: row_end - row, col, cols: col_end - col, depth };
+        accel::make_room(ID, &mut self.words, block.len())?;
         self.words.resize(first + block.len(), 0);
         let (r, s) = self.words[first..].split_at_mut(block.rows as usize);
         for (slot, object) in nearest_first[..count].iter().enumerate() {
@@ -155,7 +170,7 @@ impl Part {
             self.ids.push(object.id);
         }
         self.ids.resize(self.ids.len() + BLOCK - count, EMPTY_SLOT);
-        self.blocks.push(block);
+        accel::append(ID, &mut self.blocks, block)
     }
 }
 

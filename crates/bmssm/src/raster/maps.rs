@@ -1,5 +1,7 @@
 //! What is stored: a header and words for each block, a bit per block for each row and column of tiles.
 
+use crate::id::ID;
+use accel::BuildError;
 use lanes::ROW;
 
 /// Slots that share a bound of depth.
@@ -43,10 +45,13 @@ pub(super) struct TileMaps {
 
 impl TileMaps {
     /// The maps of `blocks` for so many rows and columns of tiles of `tile` slices.
-    pub fn new(blocks: &[Block], rows: u32, cols: u32, tile: u32) -> Self {
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory.
+    pub fn new(blocks: &[Block], rows: u32, cols: u32, tile: u32) -> Result<Self, BuildError> {
         let words = blocks.len().div_ceil(64);
-        let mut maps =
-            Self { rows: vec![0; words * rows as usize], cols: vec![0; words * cols as usize], words };
+        let zeros = |slices: u32| accel::zeroed(ID, words * slices as usize);
+        let mut maps = Self { rows: zeros(rows)?, cols: zeros(cols)?, words };
         for (i, block) in blocks.iter().enumerate() {
             let (word, bit) = (i / 64, 1 << (i % 64));
             for row in block.row / tile..(block.row + block.rows).div_ceil(tile) {
@@ -56,7 +61,7 @@ impl TileMaps {
                 maps.cols[col as usize * words + word] |= bit;
             }
         }
-        maps
+        Ok(maps)
     }
 
     /// Words of R and S, side by side, of the tile in this row and column.

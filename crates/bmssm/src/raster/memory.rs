@@ -3,7 +3,8 @@
 use super::maps::Block;
 use super::order::Shown;
 use super::{Settings, THICKNESS};
-use accel::{Raster, morton};
+use crate::id::ID;
+use accel::{BuildError, Raster};
 use lanes::BLOCK;
 
 /// Bytes of an image's maps.
@@ -20,10 +21,16 @@ impl Bytes {
     #[cfg(test)]
     pub const ANY: Self = Self { held: u128::MAX, peak: u128::MAX };
 
-    /// Fails with the bytes that would be taken where they are more than is allowed.
-    pub fn check(self, allowed: Self) -> Result<(), u128> {
-        let within = self.held <= allowed.held && self.peak <= allowed.peak;
-        if within { Ok(()) } else { Err(self.held.max(self.peak)) }
+    /// Holds them against what is allowed.
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`]
+    pub fn check(self, allowed: Self) -> Result<(), BuildError> {
+        if self.held <= allowed.held && self.peak <= allowed.peak {
+            return Ok(());
+        }
+        let bytes = self.held.max(self.peak);
+        Err(BuildError::TooLarge { structure: ID.into(), bytes, limit: allowed.peak })
     }
 }
 
@@ -67,7 +74,7 @@ impl Image<'_> {
         let seen = (shown * size_of::<Shown>()) as u128;
         let joining = (objects * size_of::<Shown>()) as u128 + seen;
         let keys = shown * size_of::<u64>();
-        let sorting = seen + (keys + morton::sort_bytes(shown, accel::parallel::threads())) as u128;
+        let sorting = seen + (keys + accel::keys::sort_bytes(shown, accel::parallel::threads())) as u128;
         // Headers in each part, which grow by doubling, then in both orders; words in each part and joined.
         let registering = seen + (keys + 2 * ids) as u128 + 4 * headers + 2 * words;
         let held = headers + words + tiles + copy;

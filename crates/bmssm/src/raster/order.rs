@@ -1,11 +1,12 @@
 //! The order of objects: by size class, then by Morton code of column, row and depth.
 
 use super::{Settings, THICKNESS};
+use crate::id::ID;
 use accel::image_space::{ImageSpace, Pixels};
 use accel::morton::{self, BITS, spread};
-use accel::parallel::map_tasks;
 use accel::parallel::prelude::*;
-use accel::{Aabb, Bounds, Projection, Raster, concatenated};
+use accel::parallel::{extend, map_tasks};
+use accel::{Aabb, Bounds, BuildError, Cancel, Projection, Raster, concatenated};
 use lanes::{Level, Simd, Task};
 
 /// Where the image shows an object.
@@ -28,15 +29,23 @@ const LANES: usize = 8;
 const CHUNK: usize = 1 << 14;
 
 /// The objects that both a row plane and a column plane touch, task by task.
-pub(super) fn shown<B: Bounds + Copy>(objects: B, raster: &Raster, simd: Level) -> Vec<Vec<Shown>> {
+pub(super) fn shown<B: Bounds + Copy>(
+    objects: B,
+    raster: &Raster,
+    simd: Level,
+    cancel: Cancel,
+) -> Result<Vec<Vec<Shown>>, BuildError> {
     let space = ImageSpace::new(raster);
-    let of = |first: usize| simd.run(Projected { objects, space: &space, first });
-    map_tasks(objects.len().div_ceil(CHUNK), &|i| of(i * CHUNK))
+    let of = |first: usize| {
+        cancel.check(ID)?;
+        simd.run(Projected { objects, space: &space, first })
+    };
+    map_tasks(objects.len().div_ceil(CHUNK), &|i| of(i * CHUNK)).into_iter().collect()
 }
 
 /// Those of all tasks.
-pub(super) fn joined(mut shown: Vec<Vec<Shown>>) -> Vec<Shown> {
-    if shown.len() > 1 { concatenated(&shown) } else { shown.pop().unwrap_or_default() }
+pub(super) fn joined(mut shown: Vec<Vec<Shown>>) -> Result<Vec<Shown>, BuildError> {
+    if shown.len() > 1 { concatenated(ID, &shown) } else { Ok(shown.pop().unwrap_or_default()) }
 }
 
 /// The objects shown of [`CHUNK`] objects.
@@ -47,12 +56,12 @@ struct Projected<'a, O> {
 }
 
 impl<B: Bounds> Task for Projected<'_, B> {
-    type Out = Vec<Shown>;
+    type Out = Result<Vec<Shown>, BuildError>;
 
     #[inline(always)]
-    fn run<S: Simd>(self, _: S) -> Vec<Shown> {
+    fn run<S: Simd>(self, _: S) -> Self::Out {
         let end = self.objects.len().min(self.first + CHUNK);
-        let mut shown = Vec::with_capacity(end - self.first);
+        let mut shown = accel::reserved(ID, end - self.first)?;
         for first in (self.first..end).step_by(LANES) {
             let mut bounds = [Aabb::EMPTY; LANES];
             for (lane, bounds) in bounds.iter_mut().enumerate() {
@@ -72,12 +81,12 @@ impl<B: Bounds> Task for Projected<'_, B> {
                 }
             }
         }
-        shown
+        Ok(shown)
     }
 }
 
 /// The places of `shown` in the order of blocks, each in the lower half of its key.
-pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> Vec<u64> {
+pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> Result<Vec<u64>, BuildError> {
     let side = raster.rows.max(raster.cols).div_ceil(THICKNESS).max(1);
     // Code units: the image's longer side has 2^BITS of them, so a slice has `slice`.
     let slice = (1 << BITS) as f32 / side as f32;
@@ -100,10 +109,8 @@ pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> V
         let z = (last - deep(s.depth)).clamp(0.0, last) as u32;
         class << (3 * BITS) | spread(middle(s.cols)) << 2 | spread(middle(s.rows)) << 1 | spread(z)
     };
-    let keyed: Vec<u64> = (0..shown.len())
-        .into_par_iter()
-        .with_min_len(CHUNK)
-        .map(|i| morton::keyed(code(&shown[i]), i as u32))
-        .collect();
-    morton::sort_by_key(keyed)
+    let keyed = |i| morton::keyed(code(&shown[i]), i as u32);
+    let mut keys = accel::reserved(ID, shown.len())?;
+    extend(&mut keys, (0..shown.len()).into_par_iter().with_min_len(CHUNK).map(keyed));
+    accel::keys::sort(ID, keys)
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::fast;
 use accel::testing::{Numbers, scene};
-use accel::{Aabb, Accel, Builder, Geometry, Hit, Mesh, Projection, RaySet, Scene, Vec3, Workload};
+use accel::{Aabb, Accel, Builder, Cancel, Geometry, Hit, Mesh, Projection, RaySet, Scene, Vec3, Workload};
 use baselines::Brute;
 use lanes::{PackedObjects, Simd, Task};
 use primitives::WithObjects;
@@ -225,7 +225,7 @@ fn only_what_can_be_seen_is_stored_and_counted() {
         fn objects<O: PackedObjects + 's>(self, objects: O) {
             let Self(raster, simd) = self;
             let settings = Settings { simd, ..Settings::default() };
-            let maps = RasterMaps::build(objects, &raster, settings, Bytes::ANY).unwrap();
+            let maps = RasterMaps::build(objects, &raster, settings, Bytes::ANY, Cancel::NEVER).unwrap();
             let covered: u32 = maps.coverage().iter().map(|w| w.count_ones()).sum();
             assert_eq!(covered as usize, maps.shown());
             assert!(maps.shown() < objects.len() / 2, "{}", maps.plan());

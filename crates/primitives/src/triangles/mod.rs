@@ -18,7 +18,7 @@ pub use search::TriangleKernel;
 use crate::Kernel;
 use crate::kernel::{Packed, Preparation, Prepared, Storage};
 use accel::Objects;
-use accel::{Aabb, Common, Corners, MeshRef, Nearest, Ray, Surface};
+use accel::{Aabb, BuildError, Common, Corners, MeshRef, Nearest, Ray, Surface};
 use bounds::TriangleBounds;
 use frame::Frame;
 use in_place::InPlace;
@@ -113,8 +113,8 @@ impl<'s, K: TriangleKernel> PackedObjects for Triangles<'s, K> {
         self.shape
     }
 
-    fn blocks(&self, order: &[u32]) -> Self::Blocks {
-        pack::blocks(self, order)
+    fn blocks(&self, structure: &str, order: &[u32]) -> Result<Self::Blocks, BuildError> {
+        pack::blocks(self, structure, order)
     }
 
     fn bytes_of_blocks(slots: usize) -> u128 {
@@ -123,8 +123,8 @@ impl<'s, K: TriangleKernel> PackedObjects for Triangles<'s, K> {
         (slots / ROW * group + slots * size_of::<u32>()) as u128
     }
 
-    fn blocks_in_place(&self, order: &[u32]) -> Self::Blocks {
-        pack::blocks_in_place(self, order)
+    fn blocks_in_place(&self, structure: &str, order: &[u32]) -> Result<Self::Blocks, BuildError> {
+        pack::blocks_in_place(self, structure, order)
     }
 }
 

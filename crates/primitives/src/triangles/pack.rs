@@ -4,7 +4,7 @@ use super::{TriangleBlocks, Triangles};
 use crate::Kernel;
 use crate::kernel::Storage;
 use accel::parallel::for_each_chunk;
-use accel::{MeshRef, filled};
+use accel::{BuildError, MeshRef, filled};
 use lanes::Ids;
 use lanes::{BLOCK, EMPTY_SLOT, ROW, prefetch};
 
@@ -15,10 +15,14 @@ const AHEAD: usize = 2;
 const TASK: usize = 512;
 
 /// Slot i holds triangle `order[i]`, or nothing for [`EMPTY_SLOT`].
-pub(super) fn blocks<'s, K: Kernel>(triangles: &Triangles<'s, K>, order: &[u32]) -> TriangleBlocks<'s, K> {
+pub(super) fn blocks<'s, K: Kernel>(
+    triangles: &Triangles<'s, K>,
+    structure: &str,
+    order: &[u32],
+) -> Result<TriangleBlocks<'s, K>, BuildError> {
     let groups = order.len().div_ceil(BLOCK) * (BLOCK / ROW);
     let (shape, scale, each) = (triangles.shape, triangles.frame.scale, K::Storage::units::<K>());
-    let mut units = filled(K::Storage::EMPTY, groups * each);
+    let mut units = filled(structure, K::Storage::EMPTY, groups * each)?;
     for_each_chunk(&mut units, TASK * each, &|task, units| {
         for (group, units) in (task * TASK..).zip(units.chunks_exact_mut(each)) {
             ask_ahead(shape.mesh, order, group);
@@ -28,16 +32,17 @@ pub(super) fn blocks<'s, K: Kernel>(triangles: &Triangles<'s, K>, order: &[u32])
             }
         }
     });
-    TriangleBlocks { triangles: *triangles, units, ids: Ids::new(order), in_place: false }
+    Ok(TriangleBlocks { triangles: *triangles, units, ids: Ids::new(structure, order)?, in_place: false })
 }
 
 /// Slot i holds triangle `order[i]`, of which nothing is copied.
 pub(super) fn blocks_in_place<'s, K: Kernel>(
     triangles: &Triangles<'s, K>,
+    structure: &str,
     order: &[u32],
-) -> TriangleBlocks<'s, K> {
-    let ids = Ids::new(order);
-    TriangleBlocks { triangles: *triangles, units: Vec::new(), ids, in_place: true }
+) -> Result<TriangleBlocks<'s, K>, BuildError> {
+    let ids = Ids::new(structure, order)?;
+    Ok(TriangleBlocks { triangles: *triangles, units: Vec::new(), ids, in_place: true })
 }
 
 fn slots(order: &[u32], group: usize) -> impl Iterator<Item = u32> {

@@ -73,9 +73,9 @@ impl WithKernel for Compare<'_> {
             (0..BLOCK as u32).map(|i| if i % 5 == 4 { EMPTY_SLOT } else { i / 5 * 4 + i % 5 }).collect();
         let order: Vec<u32> =
             order.iter().map(|&id| if (id as usize) < objects.len() { id } else { EMPTY_SLOT }).collect();
-        let blocks = objects.blocks(&order);
-        let packed = OneByOne::new(objects, &order);
-        let in_place = objects.blocks_in_place(&order);
+        let blocks = objects.blocks("x", &order).unwrap();
+        let packed = OneByOne::new(objects, "x", &order).unwrap();
+        let in_place = objects.blocks_in_place("x", &order).unwrap();
         for level in Level::here() {
             let fast = level.run(ByMask(&blocks, rays, mask));
             let plain = level.run(ByMask(&packed, rays, mask));

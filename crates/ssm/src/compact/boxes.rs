@@ -1,12 +1,12 @@
 //! The boxes of groups, and whether it pays to look at them before the objects.
 
-use super::Cells;
 use super::bricks::BrickGrid;
 use super::order::GROUP;
 use super::segment::UnitBox;
+use super::{Cells, ID};
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
-use accel::{Aabb, Bounds};
+use accel::{Aabb, Bounds, BuildError};
 use lanes::EMPTY_SLOT;
 
 /// Where a ray that meets a group's cell meets its box more often than this, looking at boxes costs more than it spares: measured
@@ -17,22 +17,27 @@ const WORTHWHILE: f64 = 0.55;
 const SAMPLE: usize = 1 << 12;
 
 /// The boxes of the groups of 16 slots; none where a ray that meets a group's cell mostly meets its box.
+///
+/// # Errors
+/// [`BuildError::TooLarge`] if the system doesn't give the memory.
 pub(super) fn boxes<B: Bounds>(
     objects: &B,
     grid: &Grid,
     bricks: &BrickGrid,
     cells: &Cells,
     slots: &[u32],
-) -> Vec<UnitBox> {
+) -> Result<Vec<UnitBox>, BuildError> {
     let of_group = |slots: &[u32]| {
         let held = slots.iter().filter(|object| **object != EMPTY_SLOT);
         bricks.unit_box(&held.fold(Aabb::EMPTY, |hull, object| hull.union(objects.bounds(*object))))
     };
     let of_number = |group: u32| of_group(&slots[group as usize * GROUP..][..GROUP]);
     if met(grid, bricks, cells, of_number) > WORTHWHILE {
-        return Vec::new();
+        return Ok(Vec::new());
     }
-    slots.par_chunks(GROUP).with_min_len(1 << 8).map(of_group).collect()
+    let mut boxes = accel::reserved(ID, slots.len().div_ceil(GROUP))?;
+    accel::parallel::extend(&mut boxes, slots.par_chunks(GROUP).with_min_len(1 << 8).map(of_group));
+    Ok(boxes)
 }
 
 /// Of the references in a cell that a ray meets, the part whose boxes it meets too: the mean over cells here and there.

@@ -193,7 +193,7 @@ impl Laid {
         if let Some(gain) = ssm.divide {
             cells = divide::divide(cells, &mut bricks, objects, &slots, gain, (limit, cancel))?;
         }
-        let boxes = boxes::boxes(objects, &grid, &bricks, &cells, &slots);
+        let boxes = boxes::boxes(objects, &grid, &bricks, &cells, &slots)?;
         Ok(Self { grid, bricks, cells, boxes, slots, apart })
     }
 }
@@ -204,7 +204,7 @@ impl<O: PackedObjects> Built<O> {
         let Laid { grid, bricks, cells, boxes, slots, apart } =
             Laid::new(&objects.shape(), ssm, O::bytes_of_blocks, cancel)?;
         cancel.check(ID)?;
-        let blocks = objects.blocks(&slots);
+        let blocks = objects.blocks(ID, &slots)?;
         let mut built = Self { settings, grid, bricks, cells, boxes, apart, blocks, sort: false, objects };
         built.sort = built.footprint().total() > CACHED;
         Ok(built)

@@ -100,7 +100,8 @@ fn blocks(mesh: &Mesh, bits: u32) -> Mesh {
         let [x, y, z] = grid.index(((a + b + c) / 3.0).as_vec3()).map(|i| morton::spread(i as u32));
         morton::keyed(x << 2 | y << 1 | z, i as u32)
     };
-    let order = morton::sort_by_key((0..mesh.triangles.len()).map(key).collect());
+    let keys = (0..mesh.triangles.len()).map(key).collect();
+    let order = accel::keys::sort("rounding", keys).expect("memory for the keys of a mesh twice");
     let mut positions = vec![Vec3::ZERO; 3 * mesh.triangles.len()];
     for block in order.chunks(BLOCK) {
         let numbers = block.iter().map(|key| *key as u32 as usize);
