@@ -53,11 +53,12 @@ pub fn run(places: &Places, ready: &Ready) -> ExitCode {
             succeed(command.arg("--no-default-features").args(CORE.map(|p| format!("-p{p}"))))
         }),
         ("packages", &|_| crate::package::run(places).map(|seen| print!("{seen}"))),
-        ("tests", &|tally| tests(&mut workspace("test"), tally)),
         ("documentation", &|_| {
             let mut command = workspace("doc");
             succeed(command.arg("--no-deps").env("RUSTDOCFLAGS", "-D warnings"))
         }),
+        // Last, for they take longest.
+        ("tests", &|tally| tests(&mut workspace("test"), tally)),
     ];
     let mut tally = Tally::default();
     let mut code = ExitCode::SUCCESS;
