@@ -25,8 +25,8 @@ pub struct Grid {
 /// Why there is no grid of that resolution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GridError {
-    /// Fewer than one or more than [`Grid::MOST_SLICES`] slices.
-    #[error("{0} slices along an axis; there must be from 1 to {most}", most = Grid::MOST_SLICES)]
+    /// Fewer than one or more than [`Grid::MAX_SLICES`] slices.
+    #[error("{0} slices along an axis; there must be from 1 to {most}", most = Grid::MAX_SLICES)]
     Slices(u32),
 }
 
@@ -43,14 +43,14 @@ pub struct Segment {
 
 impl Grid {
     /// Most slices along an axis: thinner ones would come near to [`MARGIN`].
-    pub const MOST_SLICES: u32 = 1 << 14;
+    pub const MAX_SLICES: u32 = 1 << 14;
 
     /// Divides `bounds`, which must hold the boxes of all objects.
     ///
     /// # Errors
     /// [`GridError::Slices`] if a resolution is out of range.
     pub fn new(bounds: Aabb, resolution: [u32; 3]) -> Result<Self, GridError> {
-        match resolution.into_iter().find(|n| !(1..=Self::MOST_SLICES).contains(n)) {
+        match resolution.into_iter().find(|n| !(1..=Self::MAX_SLICES).contains(n)) {
             Some(n) => Err(GridError::Slices(n)),
             None => {
                 let extent = bounds.max.as_dvec3() - bounds.min.as_dvec3();
@@ -348,7 +348,7 @@ mod tests {
     fn resolution_is_checked() {
         let bounds = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
         assert_eq!(Grid::new(bounds, [4, 0, 4]), Err(GridError::Slices(0)));
-        assert!(Grid::new(bounds, [1, Grid::MOST_SLICES, 1]).is_ok());
+        assert!(Grid::new(bounds, [1, Grid::MAX_SLICES, 1]).is_ok());
     }
 
     const N: usize = 5;

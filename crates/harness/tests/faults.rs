@@ -201,7 +201,7 @@ impl Builder for Planted {
             Self::Maps { inwards } => {
                 let settings = Settings {
                     simd: Level::best(),
-                    stretch: 1024,
+                    exact_split: 1024,
                     storage: bmssm::suite::general::Storage::Rows,
                 };
                 Box::new(Maps(General::new(&Rounded::new(mesh, inwards), settings, Cancel::NEVER)?))

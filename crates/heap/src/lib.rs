@@ -29,22 +29,22 @@ fn shrunk(bytes: usize) {
 }
 
 /// From how many bytes on allocations are counted down in [`LEFT`]; none as a rule.
-static LEAST: AtomicUsize = AtomicUsize::new(usize::MAX);
+static MIN: AtomicUsize = AtomicUsize::new(usize::MAX);
 static LEFT: AtomicUsize = AtomicUsize::new(0);
 
 /// Whether an allocation is the one to be refused.
 #[inline]
 fn is_refused(bytes: usize) -> bool {
-    bytes >= LEAST.load(Relaxed) && LEFT.fetch_sub(1, Relaxed) == 0
+    bytes >= MIN.load(Relaxed) && LEFT.fetch_sub(1, Relaxed) == 0
 }
 
 /// Does `work`, and refuses one of its allocations of at least `least` bytes: that before which there were `before`. Says
 /// whether it came so far. Other threads' allocations count as well; nothing is refused where [`Counting`] is not the allocator.
 pub fn refusing<T>(before: usize, least: usize, work: impl FnOnce() -> T) -> (T, bool) {
     LEFT.store(before, Relaxed);
-    LEAST.store(least, Relaxed);
+    MIN.store(least, Relaxed);
     let out = work();
-    LEAST.store(usize::MAX, Relaxed);
+    MIN.store(usize::MAX, Relaxed);
     // Counted down beyond 0 it is greater than it was.
     (out, LEFT.load(Relaxed) > before)
 }

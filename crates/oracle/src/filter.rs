@@ -18,7 +18,7 @@ use accel::{Corners, Ray, Vec3};
 const BOUND: f64 = 16.0 * f64::EPSILON / 2.0;
 
 /// Below this |t| a limit is raised to it, so that limit·det can't underflow.
-const LEAST_LIMIT: f64 = 1e-60;
+const MIN_LIMIT: f64 = 1e-60;
 
 /// A test of one ray against triangles that rejects only what is certainly missed.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +67,7 @@ impl Filter {
         let scaled_t = triple(a, c, b);
         let scaled_t = Bounded { value: sign * scaled_t.value, ..scaled_t };
         let limit = t_limit.min(f64::from(self.ray.t_max));
-        let limit = if limit.abs() < LEAST_LIMIT { LEAST_LIMIT } else { limit };
+        let limit = if limit.abs() < MIN_LIMIT { MIN_LIMIT } else { limit };
         let least = f64::from(self.ray.t_min);
         certainly_above(scaled_t, limit, det)
             || certainly_above(Bounded { value: -scaled_t.value, ..scaled_t }, -least, det)

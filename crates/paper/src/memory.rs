@@ -18,7 +18,7 @@ pub const OBJECTS: [u32; 5] = [100, 1000, 10_000, 100_000, 1_000_000];
 pub const CASES: [&str; 3] = ["large", "one a cell", "sparse"];
 
 /// Lists with more references than this are not built.
-const MOST_REFERENCES: f64 = 3e7;
+const MAX_REFERENCES: f64 = 3e7;
 
 /// Bytes of lists with counters, pointers and ids of `width` bytes: 2N³(q+2) with the paper's 2.
 pub fn ssm_bytes(n: u32, q: f64, width: f64) -> f64 {
@@ -154,7 +154,7 @@ fn point(case: &str, n: u32, p: u32) -> Option<Point> {
 
 /// References a cell, bytes of `ssm-list`, bytes of `bmssm-dense`; `None` if that is too much.
 fn build(n: u32, p: u32, r: f64, references: f64) -> Option<(f64, f64, f64)> {
-    if references > MOST_REFERENCES {
+    if references > MAX_REFERENCES {
         return None;
     }
     let boxes = boxes(p, r / f64::from(n), 5 + u64::from(n));

@@ -4,7 +4,7 @@ use super::candidates::quantile;
 use harness::clock::Clock;
 
 /// A pass is repeated until it takes so long: the clock's steps must not show.
-const LEAST_NS: f64 = 200_000.0;
+const MIN_NS: f64 = 200_000.0;
 
 /// Median nanoseconds of each pass, over `rounds` rounds in which all passes take turns. A pass is told the
 /// round, so that rounds may differ in what they do.
@@ -14,7 +14,7 @@ pub fn medians(rounds: usize, passes: &mut [&mut dyn FnMut(usize)]) -> Vec<f64> 
         for (pass, samples) in passes.iter_mut().zip(&mut samples) {
             // The first turn warms caches and branch predictors and tells how often to repeat.
             let first = once(1, round, pass).max(1.0);
-            let repeats = (LEAST_NS / first).ceil().clamp(1.0, 1e4) as u32;
+            let repeats = (MIN_NS / first).ceil().clamp(1.0, 1e4) as u32;
             samples.push(once(repeats, round, pass));
         }
     }

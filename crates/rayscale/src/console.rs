@@ -37,11 +37,11 @@ pub struct Global {
 }
 
 /// Threads that may be asked for: more than any machine has, and few enough for every system to give them at once.
-const MOST_THREADS: usize = 1024;
+const MAX_THREADS: usize = 1024;
 
 fn threads(text: &str) -> Result<NonZeroUsize, String> {
-    let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= MOST_THREADS);
-    number.ok_or_else(|| format!("must be a number of threads from 1 to {MOST_THREADS}"))
+    let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= MAX_THREADS);
+    number.ok_or_else(|| format!("must be a number of threads from 1 to {MAX_THREADS}"))
 }
 
 /// The user's terminal, or the files that stand for it.

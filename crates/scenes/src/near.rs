@@ -2,7 +2,7 @@
 
 /// How alike two names must be, on a scale from 0 to 1, for one to be suggested for the other.
 const LIKENESS: f64 = 0.72;
-const MOST: usize = 3;
+const MAX: usize = 3;
 
 /// Up to three of `names` that resemble `name`, the likest first.
 pub fn near<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<String> {
@@ -13,7 +13,7 @@ pub fn near<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<Str
         .filter(|(likeness, _)| *likeness >= LIKENESS)
         .collect();
     near.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
-    near.into_iter().take(MOST).map(|(_, known)| known.to_owned()).collect()
+    near.into_iter().take(MAX).map(|(_, known)| known.to_owned()).collect()
 }
 
 #[cfg(test)]

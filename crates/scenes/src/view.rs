@@ -32,10 +32,10 @@ fn bounds(geometry: &Geometry) -> Aabb {
 fn radius(bounds: &Aabb) -> f64 {
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let center = (min + max) * 0.5;
-    (0.5 * (max - min)).length().max(least_radius(center))
+    (0.5 * (max - min)).length().max(min_radius(center))
 }
 
-fn least_radius(center: DVec3) -> f64 {
+fn min_radius(center: DVec3) -> f64 {
     (center.length() * 1e-6).max(1e-30)
 }
 
@@ -68,7 +68,7 @@ pub fn upright(geometry: &Geometry, up: Vec3, fov_y_degrees: f32) -> View {
     let [right_most, left_most, top, bottom] = reach;
     let back = (right_most + left_most).max(top + bottom) / (2.0 * widening);
     // Outside, even of what is flat and seen along its plane, and away from what is but a point.
-    let back = back.max(0.02 * radius(&bounds) - nearest).max(4.0 * least_radius(center));
+    let back = back.max(0.02 * radius(&bounds) - nearest).max(4.0 * min_radius(center));
     let middle = center + right * (0.5 * (right_most - left_most)) + above * (0.5 * (top - bottom));
     View {
         eye: (middle - forward * back).as_vec3(),

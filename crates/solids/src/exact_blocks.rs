@@ -118,7 +118,7 @@ mod tests {
     /// Rays about a sphere that single precision rules out are missed for certain.
     #[test]
     fn what_is_ruled_out_is_missed() {
-        use crate::rows::{MOST_ROWS, Prepared};
+        use crate::rows::{MAX_ROWS, Prepared};
         use lanes::Scalar;
         use lanes::packet::Packet;
         let (mut out, mut hit, mut certain) = (0, 0, 0);
@@ -127,7 +127,7 @@ mod tests {
             if !(1e-8..1e8).contains(&size) || size > 1e4 * sphere.radius {
                 continue;
             }
-            let mut values = [0.0; MOST_ROWS];
+            let mut values = [0.0; MAX_ROWS];
             values[..3].copy_from_slice(&sphere.center.to_array());
             values[3] = sphere.radius;
             let prepared = Prepared::of(Scalar, &Packet::splat(Scalar, &ray), 0.0);

@@ -10,15 +10,15 @@ use lanes::packet::{Pairs, RayRows};
 use lanes::{BLOCK, ROW, Simd, ones};
 
 /// So many pairs wait at most.
-const MOST: usize = 128;
+const MAX: usize = 128;
 
 /// Pairs that may hit.
 pub(crate) struct Waiting {
     len: usize,
-    places: [u8; MOST],
-    slots: [u8; MOST],
+    places: [u8; MAX],
+    slots: [u8; MAX],
     /// What hits does so at this t or above.
-    low: [f32; MOST],
+    low: [f32; MAX],
     /// Up to what t each ray hits for certain.
     limits: [f32; ROW],
 }
@@ -27,13 +27,13 @@ impl Waiting {
     /// None, of rays that look so far.
     #[inline(always)]
     pub fn new(t_max: &[f32; ROW]) -> Self {
-        Self { len: 0, places: [0; MOST], slots: [0; MOST], low: [0.0; MOST], limits: *t_max }
+        Self { len: 0, places: [0; MAX], slots: [0; MAX], low: [0.0; MAX], limits: *t_max }
     }
 
     /// Whether there may be no room for another group.
     #[inline(always)]
     pub fn is_full(&self) -> bool {
-        self.len > MOST - ROW
+        self.len > MAX - ROW
     }
 
     /// Those of the wanted pairs of a group that may hit. There must be room.

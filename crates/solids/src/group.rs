@@ -1,7 +1,7 @@
 //! The objects of one kind among the slots of an order.
 
 use crate::objects::Solids;
-use crate::rows::{MOST_ROWS, Packing};
+use crate::rows::{MAX_ROWS, Packing};
 use accel::{BuildError, vec_bytes};
 use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, Simd};
 use std::marker::PhantomData;
@@ -141,7 +141,7 @@ impl<K: Packing> Kind<K> {
 }
 
 fn write(rows: &mut [Row], numbers: &[f32], lane: usize) {
-    debug_assert!(numbers.len() <= MOST_ROWS);
+    debug_assert!(numbers.len() <= MAX_ROWS);
     for (row, number) in rows.iter_mut().zip(numbers) {
         row.0[lane] = *number;
     }

@@ -12,7 +12,7 @@ use glam::DVec3;
 pub const WIDTH: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// Steps after which what is left of a ray is told by the signs at its ends: only rays that lie in the surface take so many.
-const MOST: usize = 1 << 16;
+const MAX: usize = 1 << 16;
 
 /// F along a line, with t from 0 at the beginning of its way through the box to 1 at its end.
 struct Along<'a> {
@@ -105,7 +105,7 @@ impl Along<'_> {
             let told = !value.holds_zero()
                 || s.width() <= WIDTH
                 || !slope.holds_zero()
-                || steps > MOST
+                || steps > MAX
                 || self.is_hidden(s, value);
             if told {
                 if ends[0] != ends[1] && found(self.root(s, ends[0]), ends[1]) {

@@ -2,7 +2,7 @@
 
 use crate::exact;
 use crate::frame::Frame;
-use crate::rows::{Cones, MOST_ROWS, Packing, Spheres, Triangles, one};
+use crate::rows::{Cones, MAX_ROWS, Packing, Spheres, Triangles, one};
 use crate::{Crossing, Crossings};
 use accel::tolerance::holds;
 use accel::{Aabb, Hit, Objects, Ray, Solid, Surface};
@@ -78,7 +78,7 @@ impl<'s> Solids<'s> {
     }
 
     /// An object's numbers, if it is of a packed kind.
-    pub(crate) fn numbers<K: Packing>(&self, id: u32) -> Option<[f32; MOST_ROWS]> {
+    pub(crate) fn numbers<K: Packing>(&self, id: u32) -> Option<[f32; MAX_ROWS]> {
         let packed = match self.precision {
             Precision::Single => true,
             Precision::Double => false,

@@ -2,7 +2,7 @@
 
 use crate::frame::Frame;
 use crate::group::Kind;
-use crate::rows::{MOST_ROWS, Packing, Prepared, Values};
+use crate::rows::{MAX_ROWS, Packing, Prepared, Values};
 use accel::Nearest;
 use lanes::packet::{Pairs, RayRows};
 use lanes::{BLOCK, ROW, Row, Simd};
@@ -101,7 +101,7 @@ impl<S: Simd> Rays<S> {
 #[inline(always)]
 pub fn values<K: Packing, S: Simd>(s: S, kind: &Kind<K>, block: usize, group: &Group) -> Values<S> {
     let at = s.load_bytes(group.slots);
-    let mut values = [s.splat(0.0); MOST_ROWS];
+    let mut values = [s.splat(0.0); MAX_ROWS];
     let first = block * (BLOCK / ROW);
     let rows =
         [kind.rows_of(first), kind.rows_of(first + 1), kind.rows_of(first + 2), kind.rows_of(first + 3)];

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1.0 / (1u64 << 46) as f64;
 const FLAT: f64 = 1.0 / (1u64 << 49) as f64;
 
 /// Parts looked at; only rays that lie in the patch come to so many.
-const MOST: usize = 1 << 15;
+const MAX: usize = 1 << 15;
 
 /// A part of the patch as the ray sees it: its control points' distances from two planes that meet in the ray.
 struct Part {
@@ -183,7 +183,7 @@ fn places(patch: &Patch, sight: &Sight, center: DVec3, extent: f64) -> Vec<[f64;
         let [low, high] = part.hull();
         let extents = high - low;
         // Seen edge-on, all of it: like a triangle in whose plane the ray lies.
-        if extents.min_element() <= slack && extents.max_element() > small || looked_at > MOST {
+        if extents.min_element() <= slack && extents.max_element() > small || looked_at > MAX {
             continue;
         }
         let of = |place: [f64; 2]| [0, 1].map(|axis| part.from[axis] + place[axis] * part.size[axis]);

@@ -27,10 +27,8 @@ impl Resolution {
             Ok([x, y, z]) => [*x, *y, *z],
             _ => return Err(format!("'{text}' is neither N nor NXxNYxNZ, such as 64 or 64x32x16")),
         };
-        match slices.into_iter().find(|n| !(1..=Grid::MOST_SLICES).contains(n)) {
-            Some(n) => {
-                Err(format!("{n} slices along an axis; there must be from 1 to {}", Grid::MOST_SLICES))
-            }
+        match slices.into_iter().find(|n| !(1..=Grid::MAX_SLICES).contains(n)) {
+            Some(n) => Err(format!("{n} slices along an axis; there must be from 1 to {}", Grid::MAX_SLICES)),
             None => Ok(Self::Slices(slices)),
         }
     }
@@ -68,7 +66,7 @@ fn by_density(bounds: &Aabb, cells: f64) -> [u32; 3] {
     };
     let axes = (1..=3).rev().find(|axes| extent[long[axes - 1]] >= edge_over(*axes)).unwrap_or(1);
     let edge = edge_over(axes);
-    let most = f64::from(Grid::MOST_SLICES);
+    let most = f64::from(Grid::MAX_SLICES);
     extent.map(|e| if e > 0.0 && edge > 0.0 { (e / edge).round().clamp(1.0, most) as u32 } else { 1 })
 }
 

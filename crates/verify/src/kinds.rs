@@ -49,7 +49,7 @@ const OBJECTS: u32 = 60;
 const SIDE: u32 = 64;
 
 /// Differences told in words.
-const MOST: usize = 20;
+const MAX: usize = 20;
 
 /// At least so many rays for each kind and for all mixed, half as image and half as list, through each of the structures: the
 /// nearest hit, whether there is any, and every crossing. `done` is told of each kind.
@@ -104,7 +104,7 @@ fn hold(
     findings: &mut Vec<String>,
 ) {
     let mut tell = |what: String| {
-        if findings.len() < MOST {
+        if findings.len() < MAX {
             findings.push(what);
         }
     };

@@ -63,7 +63,7 @@ impl Record {
         self.refused += u64::from(case.refused);
         self.exact += case.exact;
         self.hits += case.hits;
-        let room = MOST.saturating_sub(self.differences.len());
+        let room = MAX.saturating_sub(self.differences.len());
         self.differences.extend(case.differences.into_iter().take(room));
         for held in case.held {
             self.rays += held.rays;
@@ -96,7 +96,7 @@ const THREADS: [usize; 3] = [1, 2, 5];
 /// Cases that are done between two looks at the goal, whatever the machine, so that runs in parts are the run in one.
 const TOGETHER: usize = 16;
 /// Differences that are kept.
-const MOST: usize = 100;
+const MAX: usize = 100;
 
 /// When a marathon ends, besides being cancelled.
 #[derive(Clone, Copy, Debug, PartialEq)]

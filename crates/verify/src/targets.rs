@@ -33,10 +33,10 @@ pub fn work_alone() {
 }
 
 /// Bytes that readers get at most: more only take longer.
-const MOST: usize = 1 << 16;
+const MAX: usize = 1 << 16;
 
 fn mesh(name: &str, bytes: &[u8]) {
-    let read = scenes::mesh_of_bytes(Path::new(name), &bytes[..bytes.len().min(MOST)]);
+    let read = scenes::mesh_of_bytes(Path::new(name), &bytes[..bytes.len().min(MAX)]);
     let Ok(scenes::Polygons { mesh, .. }) = read else { return };
     assert!(!mesh.triangles.is_empty() && mesh.positions.iter().all(|p| p.is_finite()));
     assert!(mesh.triangles.iter().flatten().all(|index| (*index as usize) < mesh.positions.len()));
@@ -77,7 +77,7 @@ pub fn scene(bytes: &[u8]) {
 /// A record in JSON.
 pub fn record(bytes: &[u8]) {
     let path = Path::new("record.json");
-    let Ok(text) = std::str::from_utf8(&bytes[..bytes.len().min(MOST)]) else { return };
+    let Ok(text) = std::str::from_utf8(&bytes[..bytes.len().min(MAX)]) else { return };
     let Ok(record) = from_text(path, text) else { return };
     let text = to_text(&record).expect("a record that was read");
     assert_eq!(from_text(path, &text).expect("a record that was written"), record);

@@ -4,7 +4,7 @@ use super::{Axis, SpaceMaps};
 use accel::Count;
 
 /// More levels than any number of objects has: each has a 64th of the words of the one below.
-const MOST: usize = 6;
+const MAX: usize = 6;
 
 /// The words of a cell that may hold candidates, found from the highest level down.
 ///
@@ -14,8 +14,8 @@ pub struct Descent<'a> {
     maps: &'a SpaceMaps,
     slice: [u32; 3],
     /// Of each level: the word's place, and the bits that are left of it.
-    place: [usize; MOST],
-    bits: [u64; MOST],
+    place: [usize; MAX],
+    bits: [u64; MAX],
     level: usize,
 }
 
@@ -24,7 +24,7 @@ impl<'a> Descent<'a> {
     #[inline(always)]
     pub fn new(maps: &'a SpaceMaps, slice: [u32; 3], count: &mut impl Count) -> Self {
         let level = maps.above.len();
-        let mut descent = Self { maps, slice, place: [0; MOST], bits: [0; MOST], level };
+        let mut descent = Self { maps, slice, place: [0; MAX], bits: [0; MAX], level };
         descent.look(0, count);
         descent
     }

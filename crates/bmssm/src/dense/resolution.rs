@@ -51,10 +51,8 @@ impl Resolution {
             Self::Same(n) => [n; 3],
             Self::Each(each) => each,
         };
-        match wanted.into_iter().find(|n| !(1..=Grid::MOST_SLICES).contains(n)) {
-            Some(n) => {
-                Err(format!("{n} slices along an axis; there must be from 1 to {}", Grid::MOST_SLICES))
-            }
+        match wanted.into_iter().find(|n| !(1..=Grid::MAX_SLICES).contains(n)) {
+            Some(n) => Err(format!("{n} slices along an axis; there must be from 1 to {}", Grid::MAX_SLICES)),
             None => Ok(()),
         }
     }

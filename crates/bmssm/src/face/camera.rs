@@ -11,7 +11,7 @@ pub struct Camera(Raster);
 #[non_exhaustive]
 pub enum CameraError {
     /// The image has no row or column, or too many.
-    #[error("an image of {0} x {1} pixels; there must be from 1 to {most} each way", most = Camera::MOST)]
+    #[error("an image of {0} x {1} pixels; there must be from 1 to {most} each way", most = Camera::MAX)]
     Size(u32, u32),
     /// The eye, the target or the direction up is not finite, or too large to reckon with.
     #[error("the camera's eye, target and up are not all finite and of sensible size")]
@@ -26,7 +26,7 @@ pub enum CameraError {
 
 impl Camera {
     /// Most rows or columns.
-    pub const MOST: u32 = 1 << 16;
+    pub const MAX: u32 = 1 << 16;
 
     /// Rays from `eye`; `fov_y_degrees` is the full vertical angle of view.
     ///
@@ -69,7 +69,7 @@ impl Camera {
     }
 
     fn check(view: &View, rows: u32, cols: u32) -> Result<(), CameraError> {
-        if [rows, cols].iter().any(|n| !(1..=Self::MOST).contains(n)) {
+        if [rows, cols].iter().any(|n| !(1..=Self::MAX).contains(n)) {
             return Err(CameraError::Size(rows, cols));
         }
         let [eye, target, up] = [view.eye, view.target, view.up];

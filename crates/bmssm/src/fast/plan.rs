@@ -60,9 +60,9 @@ impl Plan {
             };
             beside = if storage == Storage::Rows { rows } else { least };
             bytes += beside;
-            let stretch = stretch(settings, objects, &mut reasons);
+            let exact_split = exact_split(settings, objects, &mut reasons);
             reasons.push(format!("geometry={}: {why}", storage.id()));
-            general::Settings { simd: settings.simd, stretch, storage }
+            general::Settings { simd: settings.simd, exact_split, storage }
         });
         Self { objects, raster, general, bytes, beside, reasons }
     }
@@ -71,18 +71,18 @@ impl Plan {
 /// Per object: maps, and a copy of its geometry.
 const RASTER_BYTES: u32 = 16 + 52;
 
-fn stretch(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> usize {
-    let (stretch, why) = match settings.stretch {
-        Some(stretch) => (stretch, "as set"),
+fn exact_split(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> usize {
+    let (exact_split, why) = match settings.exact_split {
+        Some(exact_split) => (exact_split, "as set"),
         None => (general::STRETCH, "the default"),
     };
     reasons.push(format!(
         "{} blocks of up to {BLOCK} objects with {} slices an axis, split by clusters of neighbours down to \
-         {stretch} objects ({why}) and then object by object: the workload names rays of any kind",
+         {exact_split} objects ({why}) and then object by object: the workload names rays of any kind",
         objects.div_ceil(BLOCK),
         lanes::path::SLICES
     ));
-    stretch
+    exact_split
 }
 
 impl fmt::Display for Plan {

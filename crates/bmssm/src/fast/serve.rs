@@ -17,13 +17,13 @@ pub(super) struct Built<O: PackedObjects> {
 
 /// Rays of a list that one task of the thread pool traces: all in long streams, unless that leaves a thread with nothing.
 fn chunk(rays: usize) -> usize {
-    const LEAST: usize = 1 << 13;
-    const MOST: usize = 1 << 18;
+    const MIN: usize = 1 << 13;
+    const MAX: usize = 1 << 18;
     let shares = match accel::parallel::threads() {
         1 => 1,
         threads => 4 * threads,
     };
-    rays.div_ceil(shares).next_multiple_of(LEAST).clamp(LEAST, MOST)
+    rays.div_ceil(shares).next_multiple_of(MIN).clamp(MIN, MAX)
 }
 
 impl<O: PackedObjects> Built<O> {

@@ -73,8 +73,7 @@ fn the_plan_bounds_what_is_built() {
 
 #[test]
 fn every_setting_is_read_as_it_is_written() {
-    let text =
-        "kernel=watertight simd=portable stretch=512 geometry=scene tile=4 depth_bits=1 apart=9 memory=123";
+    let text = "kernel=watertight simd=portable exact_split=512 geometry=scene tile=4 depth_bits=1 large=9 memory=123";
     let mut settings = Settings::default();
     for (name, value) in text.split(' ').map(|pair| pair.split_once('=').unwrap()) {
         settings.set(name, value).unwrap();

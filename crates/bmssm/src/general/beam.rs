@@ -2,7 +2,7 @@
 //! Transactions on Graphics 24(3), 2005; intervals in place of frusta).
 
 use super::maps::BlockMaps;
-use super::traveller::{LIMIT, Traveller, Way, WayRows};
+use super::state::{DirectionRows, LIMIT, NodeView, TraversalState};
 use accel::Nearest;
 use accel::grid::{RayRows, SegmentRows};
 use lanes::packet::{NearestPacket, Packet};
@@ -16,9 +16,9 @@ const WIDER: f32 = 1.0 / (1 << 20) as f32;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
     /// A ray that enters each box no later than any of them, and what they share: the place up to which objects must be looked at.
-    pub near: Traveller,
+    pub near: TraversalState,
     /// A ray that leaves each box no sooner than any of them.
-    pub far: Traveller,
+    pub far: TraversalState,
     /// What contains them all.
     hull: UnitHull,
     /// That of its rays.
@@ -95,13 +95,13 @@ impl BeamRays {
     }
 }
 
-impl Way for Beam {
+impl NodeView for Beam {
     #[inline(always)]
-    fn near(&self) -> &Traveller {
+    fn near(&self) -> &TraversalState {
         &self.near
     }
     #[inline(always)]
-    fn far(&self) -> &Traveller {
+    fn far(&self) -> &TraversalState {
         &self.far
     }
 }
@@ -112,7 +112,7 @@ impl Beam {
     pub fn of<S: Simd>(
         s: S,
         segments: &SegmentRows<ROW>,
-        ways: &WayRows,
+        ways: &DirectionRows,
         on: u32,
         first: u32,
         spread: f32,
@@ -150,7 +150,7 @@ impl Beam {
             let long = s.bits(s.lt(half, s.abs(s.load(&segments.delta[axis][at..]))));
             straight &= !long & (on >> at) & (u32::MAX >> (32 - S::LANES)) == 0;
         }
-        let (mut near, mut far) = (Traveller::NONE, Traveller::NONE);
+        let (mut near, mut far) = (TraversalState::NONE, TraversalState::NONE);
         near.start[3] = LIMIT;
         far.start[3] = LIMIT;
         let mut range = Range::NONE;

@@ -5,8 +5,8 @@ use super::beam::{Beam, BeamRays};
 use super::maps::BlockMaps;
 use super::ready::Ready;
 use super::scratch::{Scratch, Waiting};
+use super::state::{LIMIT, TraversalState};
 use super::test::{ResolveBeam, TestBeam, Tested};
-use super::traveller::{LIMIT, Traveller};
 use super::tree::Node;
 use super::visit::Visit;
 use accel::grid::Span;
@@ -98,12 +98,12 @@ impl<O: PackedObjects> General<O> {
         steps.tests += tests;
         if ANY {
             if on == 0 {
-                beam.near.start[3] = Traveller::DONE;
+                beam.near.start[3] = TraversalState::DONE;
             }
             return;
         }
         // What a ray's nearest hit allows; where there is none yet, all.
-        let mut limit = Traveller::DONE;
+        let mut limit = TraversalState::DONE;
         while on != 0 {
             let lane = on.trailing_zeros() as usize % ROW;
             on &= on - 1;

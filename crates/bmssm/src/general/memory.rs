@@ -9,13 +9,13 @@ use lanes::BLOCK;
 /// The most bytes at any moment of building maps over so many objects, built by so many threads, whose geometry takes `copy` bytes for a number of slots.
 pub fn bytes(objects: usize, threads: usize, copy: impl Fn(usize) -> u128) -> u128 {
     let (item, key) = (size_of::<Item>(), size_of::<u64>());
-    let (blocks, parts) = (most_blocks(objects), most_parts(objects));
+    let (blocks, parts) = (max_blocks(objects), max_parts(objects));
     let slots = blocks * BLOCK;
     // Boxes with their keys while these are sorted, and then with their copies along the curve.
     let sorting = objects * (item + key) + accel::keys::sort_bytes(objects, threads);
     let copying = objects * (2 * item + key);
     // Clusters as they are found and as they are joined; then joined alone, and as much again to split them.
-    let clusters = order::most_clusters(objects) * item;
+    let clusters = order::max_clusters(objects) * item;
     let clustering = objects * (item + key) + 3 * clusters;
     let laid = blocks * (size_of::<BlockMaps>() + item) + slots * size_of::<u32>();
     let cutting =
@@ -37,13 +37,13 @@ const NODE_BLOCKS: usize = 4;
 const FEW: u128 = 8 << 10;
 
 /// Parts are halves of what was too much for one, though not the smallest halves.
-fn most_parts(objects: usize) -> usize {
+fn max_parts(objects: usize) -> usize {
     // One for small objects, one for large ones.
     2 + objects / (order::PART / 4)
 }
 
 /// The last block of each part may hold less than others.
-fn most_blocks(objects: usize) -> usize {
-    let parts = if objects <= order::PART { 2.min(objects) } else { most_parts(objects) };
+fn max_blocks(objects: usize) -> usize {
+    let parts = if objects <= order::PART { 2.min(objects) } else { max_parts(objects) };
     objects / BLOCK + parts
 }

@@ -11,10 +11,10 @@ mod paths;
 mod ready;
 mod scratch;
 mod split;
+mod state;
 mod stream;
 mod test;
 mod trace;
-mod traveller;
 mod tree;
 mod unit_box;
 mod visit;
@@ -34,10 +34,10 @@ use tree::Node;
 use unit_box::UnitBox;
 
 /// Most objects that are split object by object.
-pub const MOST_STRETCH: usize = order::PART;
+pub const MAX_EXACT_SPLIT: usize = order::PART;
 
 /// Objects that are split object by object unless told otherwise.
-pub const STRETCH: usize = MOST_STRETCH;
+pub const STRETCH: usize = MAX_EXACT_SPLIT;
 
 /// Where objects are when rays of any kind are tested with them. Answers are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,8 +67,8 @@ pub struct Settings {
     /// The instruction set.
     pub simd: Level,
     /// Objects up to which a part of the scene is split object by object, larger ones by clusters of
-    /// neighbours; at most [`MOST_STRETCH`].
-    pub stretch: usize,
+    /// neighbours; at most [`MAX_EXACT_SPLIT`].
+    pub exact_split: usize,
     /// Where objects are when they are tested.
     pub storage: Storage,
 }

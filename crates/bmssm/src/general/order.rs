@@ -78,7 +78,14 @@ impl Order {
         }
         let cut = rooms.into_par_iter().map_init(Buffers::default, |buffers, (part, room)| {
             cancel.check(ID)?;
-            settings.simd.run(Cut { shape, items: &items, part, room, buffers, stretch: settings.stretch })
+            settings.simd.run(Cut {
+                shape,
+                items: &items,
+                part,
+                room,
+                buffers,
+                exact_split: settings.exact_split,
+            })
         });
         cut.collect::<Result<(), BuildError>>()?;
         Ok(order)
@@ -91,11 +98,11 @@ const CHUNK: usize = 1 << 13;
 /// Objects that a cluster has on average, at most.
 const CLUSTER: usize = 8;
 /// Objects that a cluster has at most.
-const MOST: usize = 16;
+const MAX: usize = 16;
 
 /// Clusters of so many objects at most: what is over of each run that is cut counts as well.
-pub fn most_clusters(objects: usize) -> usize {
-    objects.div_ceil(CLUSTER) + objects.div_ceil(MOST) + 2
+pub fn max_clusters(objects: usize) -> usize {
+    objects.div_ceil(CLUSTER) + objects.div_ceil(MAX) + 2
 }
 
 /// Runs of neighbours along the curve that share a cell: the place of the first among `items`, and how many there
@@ -123,7 +130,7 @@ fn clusters(items: &[Item], keys: &[u64], place: usize) -> Result<Vec<Item>, Bui
             let here = cell(keys[first]);
             let mut range = Extremes::NONE;
             let mut next = first;
-            while next < end && next < first + MOST && cell(keys[next]) == here {
+            while next < end && next < first + MAX && cell(keys[next]) == here {
                 range.gather(&items[place + next].extremes());
                 next += 1;
             }
@@ -233,7 +240,7 @@ struct Cut<'a, 'o> {
     part: Part<'a>,
     room: Room<'o>,
     buffers: &'a mut Buffers,
-    stretch: usize,
+    exact_split: usize,
 }
 
 impl Task for Cut<'_, '_> {
@@ -241,7 +248,7 @@ impl Task for Cut<'_, '_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> Self::Out {
-        let Self { shape, items: all, part, room, buffers, stretch } = self;
+        let Self { shape, items: all, part, room, buffers, exact_split } = self;
         let Buffers { items, scratch, marks, open } = buffers;
         let Part { clusters, objects } = part;
         items.clear();
@@ -260,7 +267,7 @@ impl Task for Cut<'_, '_> {
         while let Some((first, end, _)) = open.pop() {
             let clusters = &mut clusters[first..end];
             let weight: usize = clusters.iter().map(|cluster| cluster.weight() as usize).sum();
-            if weight <= stretch || clusters.len() == 1 {
+            if weight <= exact_split || clusters.len() == 1 {
                 for cluster in &*clusters {
                     let first = cluster.number() as usize;
                     items.extend_from_slice(&all[first..first + cluster.weight() as usize]);
@@ -323,7 +330,7 @@ mod tests {
         let mut next = 0;
         for cluster in &clusters {
             assert_eq!(cluster.number(), next);
-            assert!((1..=MOST as u32).contains(&cluster.weight()));
+            assert!((1..=MAX as u32).contains(&cluster.weight()));
             next += cluster.weight();
         }
         assert_eq!(next, 5000);
@@ -334,7 +341,8 @@ mod tests {
     fn coinciding_objects_are_ordered_too() {
         let boxes: Vec<Item> = (0..9000).map(|i| point(i, [0.5; 3])).collect();
         let keys = (0..9000).map(|i| morton::keyed(7, i)).collect();
-        let settings = Settings { simd: Level::Portable, stretch: 128, storage: super::super::Storage::Rows };
+        let settings =
+            Settings { simd: Level::Portable, exact_split: 128, storage: super::super::Storage::Rows };
         let order = Order::new(&Shape { extent: [1.0; 3] }, boxes, keys, settings, Cancel::NEVER).unwrap();
         assert_eq!(order.blocks.len(), order.maps.len());
         let mut slots: Vec<u32> = order.slots.into_iter().filter(|slot| *slot != EMPTY_SLOT).collect();

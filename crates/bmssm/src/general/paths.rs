@@ -2,7 +2,7 @@
 
 use super::maps::BlockMaps;
 use super::scratch::PairList;
-use super::traveller::Traveller;
+use super::state::TraversalState;
 use lanes::path::Path;
 use lanes::{BLOCK, ROW, Simd, Task};
 
@@ -11,7 +11,7 @@ pub(super) struct Along<'a> {
     pub maps: &'a BlockMaps,
     /// Which coordinates of the rays' directions are negative.
     pub negative: &'a [bool; 3],
-    pub travellers: &'a [Traveller],
+    pub states: &'a [TraversalState],
     /// The rays, by number.
     pub ids: &'a [u16],
     /// Where rays and candidates are written down in pairs, if they are to be.
@@ -23,10 +23,10 @@ impl Task for Along<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> [u64; ROW] {
-        let Self { maps, negative, travellers, ids, mut pairs } = self;
-        let mut chosen = [&travellers[usize::from(ids[0]) % travellers.len()]; ROW];
+        let Self { maps, negative, states, ids, mut pairs } = self;
+        let mut chosen = [&states[usize::from(ids[0]) % states.len()]; ROW];
         for (chosen, id) in chosen.iter_mut().zip(ids) {
-            *chosen = &travellers[usize::from(*id)];
+            *chosen = &states[usize::from(*id)];
         }
         let paths = Paths::of(s, maps, negative, &chosen, ids.len());
         let mut masks = [0; ROW];
@@ -62,7 +62,7 @@ impl Paths {
         s: S,
         maps: &BlockMaps,
         negative: &[bool; 3],
-        chosen: &[&Traveller; ROW],
+        chosen: &[&TraversalState; ROW],
         len: usize,
     ) -> Self {
         let mut quads = [&chosen[0].start; ROW];

@@ -2,7 +2,7 @@
 
 use super::beam::{Beam, BeamRays};
 use super::scratch::{STREAM, Scratch};
-use super::traveller::{Traveller, WayRows};
+use super::state::{DirectionRows, TraversalState};
 use accel::grid::{Grid, Span};
 use accel::{Nearest, Ray};
 use lanes::packet::rows;
@@ -29,11 +29,11 @@ impl Task for Begin<'_> {
     fn run<S: Simd>(self, s: S) -> Begun {
         let Self { frame, spread, rays, scratch } = self;
         assert!(rays.len() <= STREAM, "no more rays than a stream holds");
-        let Scratch { travellers, spans, best, lists, beams, beam_rays, .. } = scratch;
+        let Scratch { states, spans, best, lists, beams, beam_rays, .. } = scratch;
         let all = rays.len().next_multiple_of(SHARE);
         let stride = all + SHARE;
-        if travellers.len() < all {
-            travellers.resize(all, Traveller::NONE);
+        if states.len() < all {
+            states.resize(all, TraversalState::NONE);
             spans.resize(all, Span::default());
             best.resize(all, Nearest::new(0.0));
         }
@@ -49,13 +49,13 @@ impl Task for Begin<'_> {
                 let first = share * SHARE + row * ROW;
                 let rows = rows(s, rays);
                 let segments = frame.clip_rows(&rows);
-                let ways = WayRows::of(s, &rows, &segments);
+                let ways = DirectionRows::of(s, &rows, &segments);
                 let mut on = 0;
                 for lane in 0..rays.len() {
                     // Those that miss the scene are in no list.
                     on |= u32::from(segments.met[lane]) << lane;
                 }
-                ways.store(s, &segments, &mut travellers[first..first + ROW]);
+                ways.store(s, &segments, &mut states[first..first + ROW]);
                 let spans = spans[first..].first_chunk_mut::<ROW>().expect("room for all rays");
                 let best = best[first..].first_chunk_mut::<ROW>().expect("room for all rays");
                 for lane in 0..ROW {

@@ -1,7 +1,7 @@
 //! What a thread keeps while it takes rays through the levels.
 
 use super::beam::{Beam, BeamRays};
-use super::traveller::Traveller;
+use super::state::TraversalState;
 use accel::grid::Span;
 use accel::{Counters, Nearest};
 use lanes::{BLOCK, ROW};
@@ -24,7 +24,7 @@ pub(super) struct Waiting {
 /// Buffers that are kept from stream to stream; only the first places, one for each ray of the stream, mean something.
 #[derive(Default)]
 pub(super) struct Scratch {
-    pub(super) travellers: Vec<Traveller>,
+    pub(super) states: Vec<TraversalState>,
     pub(super) spans: Vec<Span>,
     pub(super) best: Vec<Nearest>,
     /// Those of neighbours that are taken together.

@@ -30,7 +30,7 @@ const BINS: usize = 16;
 const FINE: usize = 64;
 
 /// Either part holds at least this part of the items, so that the depth stays logarithmic.
-const LEAST_PART: usize = 32;
+const MIN_PART: usize = 32;
 
 /// A split is looked for among about so many items; among more, the best split changes little.
 const SAMPLE: usize = 128;
@@ -78,7 +78,7 @@ impl Shape {
         };
         assert!(len > packet.max(1), "nothing to divide");
         let even = |left: usize| {
-            let left = left.clamp(len / LEAST_PART, len - len / LEAST_PART);
+            let left = left.clamp(len / MIN_PART, len - len / MIN_PART);
             ((left + packet / 2) / packet * packet).clamp(packet, (len - 1) / packet * packet)
         };
         let stride = (len / SAMPLE).max(1);

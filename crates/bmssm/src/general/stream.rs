@@ -8,8 +8,8 @@ use super::General;
 use super::paths::Along;
 use super::ready::{Begin, Begun};
 use super::scratch::{STREAM, Scratch, Waiting};
+use super::state::TraversalState;
 use super::test::{ResolveEach, TestOne, TestPairs};
-use super::traveller::Traveller;
 use super::tree::Node;
 use super::visit::Visit;
 use accel::Ray;
@@ -78,10 +78,10 @@ impl<O: PackedObjects> General<O> {
         let negative = [octant & 1 != 0, octant & 2 != 0, octant & 4 != 0];
         while let Some(at) = scratch.stack.pop() {
             if at.what & Node::BLOCK == 0 {
-                let Scratch { travellers, lists, stack, steps, .. } = &mut *scratch;
+                let Scratch { states, lists, stack, steps, .. } = &mut *scratch;
                 steps.cells += u64::from(at.len);
                 let node = &self.nodes[at.what as usize];
-                s.apart(Visit { node, negative: &negative, at, ways: travellers, lists, stack });
+                s.apart(Visit { node, negative: &negative, at, ways: states, lists, stack });
                 self.prefetch_next(stack);
             } else {
                 scratch.steps.blocks += u64::from(at.len);
@@ -116,13 +116,13 @@ impl<O: PackedObjects> General<O> {
     ) {
         let block = (at.what & !Node::BLOCK) as usize;
         let maps = &self.maps[block];
-        let Scratch { travellers, spans, best, lists, pairs, steps, .. } = scratch;
+        let Scratch { states, spans, best, lists, pairs, steps, .. } = scratch;
         let list = &lists[at.first as usize..(at.first + at.len) as usize];
         for ids in list.chunks(S::LANES) {
-            let (mut limits, mut changed) = ([Traveller::DONE; ROW], 0u32);
+            let (mut limits, mut changed) = ([TraversalState::DONE; ROW], 0u32);
             if O::Blocks::takes_pairs::<S>() {
                 pairs.len = 0;
-                s.apart(Along { maps, negative, travellers, ids, pairs: Some(&mut *pairs) });
+                s.apart(Along { maps, negative, states, ids, pairs: Some(&mut *pairs) });
                 steps.candidates += pairs.len as u64;
                 steps.tests += pairs.len as u64;
                 if pairs.len == 0 {
@@ -134,12 +134,12 @@ impl<O: PackedObjects> General<O> {
                     let id = usize::from(*id);
                     if nearest.object != best[id].object || nearest.t != best[id].t {
                         best[id] = *nearest;
-                        limits[lane] = if ANY { Traveller::DONE } else { spans[id].limit(nearest.t) };
+                        limits[lane] = if ANY { TraversalState::DONE } else { spans[id].limit(nearest.t) };
                         changed |= 1 << lane;
                     }
                 }
             } else {
-                let masks = s.apart(Along { maps, negative, travellers, ids, pairs: None });
+                let masks = s.apart(Along { maps, negative, states, ids, pairs: None });
                 for (lane, (candidates, id)) in masks.into_iter().zip(ids).enumerate() {
                     if candidates == 0 {
                         continue;
@@ -150,7 +150,7 @@ impl<O: PackedObjects> General<O> {
                     let (objects, one, best) = (&self.objects, &ones[id], &mut best[id]);
                     let test = TestOne { objects, block, candidates, one, best: &mut *best, any: ANY };
                     if s.apart(test) {
-                        limits[lane] = if ANY { Traveller::DONE } else { spans[id].limit(best.t) };
+                        limits[lane] = if ANY { TraversalState::DONE } else { spans[id].limit(best.t) };
                         changed |= 1 << lane;
                     }
                 }
@@ -158,7 +158,7 @@ impl<O: PackedObjects> General<O> {
             while changed != 0 {
                 let lane = changed.trailing_zeros() as usize % ROW;
                 changed &= changed - 1;
-                travellers[usize::from(ids[lane])].start[3] = limits[lane];
+                states[usize::from(ids[lane])].start[3] = limits[lane];
             }
         }
     }

@@ -90,9 +90,9 @@ struct Differences<'a>(&'a [Ray], &'a [Option<Hit>], Level, usize);
 impl<'s> WithObjects<'s> for Differences<'_> {
     type Out = usize;
     fn objects<O: PackedObjects + 's>(self, objects: O) -> usize {
-        let Self(rays, reference, simd, stretch) = self;
+        let Self(rays, reference, simd, exact_split) = self;
         let of = |storage| {
-            let settings = Settings { simd, stretch, storage };
+            let settings = Settings { simd, exact_split, storage };
             differences(&General::new(&objects, settings, Cancel::NEVER).unwrap(), rays, reference)
         };
         Storage::ALL.map(of).iter().sum()
@@ -130,10 +130,13 @@ fn assert_no_differences(geometry: Geometry, rays: &[Ray]) -> usize {
         brute.trace(&RaySet::List(rays.to_vec()), &mut reference);
         hits = reference.iter().flatten().count();
         for simd in Level::here() {
-            for stretch in [128, MOST_STRETCH] {
-                let differences =
-                    primitives::with_objects(&scene, kernel, Differences(rays, &reference, simd, stretch));
-                assert_eq!(differences, 0, "{kernel} {simd:?} {stretch}");
+            for exact_split in [128, MAX_EXACT_SPLIT] {
+                let differences = primitives::with_objects(
+                    &scene,
+                    kernel,
+                    Differences(rays, &reference, simd, exact_split),
+                );
+                assert_eq!(differences, 0, "{kernel} {simd:?} {exact_split}");
             }
         }
     }
@@ -194,7 +197,7 @@ fn the_tree_holds_every_object_once_and_full_blocks() {
         fn objects<O: PackedObjects + 's>(self, objects: O) -> Self::Out {
             let maps = General::new(
                 &objects,
-                Settings { simd: Level::Portable, stretch: MOST_STRETCH, storage: Storage::Rows },
+                Settings { simd: Level::Portable, exact_split: MAX_EXACT_SPLIT, storage: Storage::Rows },
                 Cancel::NEVER,
             )
             .unwrap();
@@ -229,7 +232,8 @@ fn neighbours_are_taken_together() {
     impl<'s> WithObjects<'s> for Steps<'_> {
         type Out = u64;
         fn objects<O: PackedObjects + 's>(self, objects: O) -> u64 {
-            let settings = Settings { simd: Level::Portable, stretch: MOST_STRETCH, storage: Storage::Rows };
+            let settings =
+                Settings { simd: Level::Portable, exact_split: MAX_EXACT_SPLIT, storage: Storage::Rows };
             General::new(&objects, settings, Cancel::NEVER).unwrap().count(self.0, true).blocks
         }
     }

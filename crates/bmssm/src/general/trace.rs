@@ -10,17 +10,17 @@ use accel::{Nearest, Ray};
 use lanes::{Blocks, PackedObjects, ROW, Simd};
 
 /// A component of the way is at least this long, so that its reciprocal is finite and no product is NaN.
-pub(super) const LEAST: f32 = PARALLEL as f32;
+pub(super) const MIN: f32 = PARALLEL as f32;
 
 /// A ray in the unit coordinates of the scene, as `start + s·delta` with s from 0 to 1.
 #[derive(Clone, Copy, Debug)]
-struct Way {
+struct ClippedSegment {
     start: [f32; 3],
     delta: [f32; 3],
     inverse: [f32; 3],
 }
 
-impl Way {
+impl ClippedSegment {
     #[inline(always)]
     fn new(segment: &Segment) -> Self {
         let [x, y, z] = segment.delta.to_array();
@@ -41,7 +41,7 @@ impl Way {
 
 #[inline(always)]
 fn at_least(component: f32) -> f32 {
-    if component.abs() < LEAST { LEAST.copysign(component) } else { component }
+    if component.abs() < MIN { MIN.copysign(component) } else { component }
 }
 
 /// A child that waits: where the ray enters and leaves its box, and which it is.
@@ -109,14 +109,14 @@ impl<O: PackedObjects> General<O> {
         if self.nodes.is_empty() {
             return best;
         }
-        let way = Way::new(&segment);
+        let clipped = ClippedSegment::new(&segment);
         let prepared = self.objects.one(ray);
         let mut limit = 1.0 + LIMIT_S as f32;
         stack.len = 0;
         let mut next = Some(Waiting { enter: 0.0, exit: 1.0, what: 0 });
         while let Some(Waiting { enter, exit, what }) = next {
             if what & Node::BLOCK == 0 {
-                next = match nearest_child(s, &self.nodes[what as usize], &way, limit, stack) {
+                next = match nearest_child(s, &self.nodes[what as usize], &clipped, limit, stack) {
                     None => stack.pop(limit),
                     child => child,
                 };
@@ -124,7 +124,7 @@ impl<O: PackedObjects> General<O> {
             }
             let exit = if exit < limit { exit } else { limit };
             let block = (what & !Node::BLOCK) as usize;
-            let candidates = self.maps[block].candidates(s, way.at(enter), way.at(exit));
+            let candidates = self.maps[block].candidates(s, clipped.at(enter), clipped.at(exit));
             if candidates != 0 {
                 if ANY {
                     if self.objects.any(s, block, candidates, &prepared, ray.t_max) {
@@ -148,15 +148,21 @@ impl<O: PackedObjects> General<O> {
 
 /// The nearest child whose box the ray meets; the others go on the stack, the nearest on top.
 #[inline(always)]
-fn nearest_child<S: Simd>(s: S, node: &Node, way: &Way, limit: f32, stack: &mut Stack) -> Option<Waiting> {
+fn nearest_child<S: Simd>(
+    s: S,
+    node: &Node,
+    clipped: &ClippedSegment,
+    limit: f32,
+    stack: &mut Stack,
+) -> Option<Waiting> {
     let (mut enters, mut exits) = ([0.0; ROW], [0.0; ROW]);
     let mut met = 0;
     for at in (0..WIDTH).step_by(S::LANES) {
         let mut enter = s.splat(0.0);
         let mut exit = s.splat(limit);
         for axis in 0..3 {
-            let (start, inverse) = (s.splat(way.start[axis]), s.splat(way.inverse[axis]));
-            let (near, far) = if way.delta[axis] >= 0.0 { (axis, axis + 3) } else { (axis + 3, axis) };
+            let (start, inverse) = (s.splat(clipped.start[axis]), s.splat(clipped.inverse[axis]));
+            let (near, far) = if clipped.delta[axis] >= 0.0 { (axis, axis + 3) } else { (axis + 3, axis) };
             enter = s.max(enter, s.mul(s.sub(s.load(&node.boxes[near].0[at..]), start), inverse));
             exit = s.min(exit, s.mul(s.sub(s.load(&node.boxes[far].0[at..]), start), inverse));
         }

@@ -1,7 +1,7 @@
 //! Rays at a node.
 
 use super::scratch::Waiting;
-use super::traveller::Way;
+use super::state::NodeView;
 use super::tree::{Node, WIDTH};
 use lanes::{Lists, ROW, SHARE, Simd, Task};
 
@@ -16,7 +16,7 @@ pub(super) struct Visit<'a, W> {
     pub stack: &'a mut Vec<Waiting>,
 }
 
-impl<W: Way> Task for Visit<'_, W> {
+impl<W: NodeView> Task for Visit<'_, W> {
     type Out = ();
 
     #[inline(always)]

@@ -63,7 +63,7 @@ fn laid(shown: Vec<Vec<Shown>>, image: Image, allowed: Bytes, cancel: Cancel) ->
     let order = sorted(&shown, raster, settings)?;
     cancel.check(ID)?;
     // Counted only where it may matter.
-    if image.bytes(image.most_words()).check(allowed).is_err() {
+    if image.bytes(image.max_words()).check(allowed).is_err() {
         image.bytes(words(&shown, &order)).check(allowed)?;
     }
     let registered = order.par_chunks(CHUNK * BLOCK).map(|slots| {

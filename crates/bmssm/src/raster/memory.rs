@@ -57,7 +57,7 @@ impl Image<'_> {
     }
 
     /// Words of the maps at most: as if each object were as large as the image.
-    pub fn most_words(&self) -> usize {
+    pub fn max_words(&self) -> usize {
         self.shown.div_ceil(BLOCK).saturating_mul(self.slices())
     }
 

@@ -42,12 +42,12 @@ pub struct Settings {
     pub depth_bits: u32,
     /// Objects that span more slices than this are kept apart from smaller ones; so are those that span
     /// four and sixteen times as many.
-    pub apart: u32,
+    pub large: u32,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { kernel: KernelId::MollerTrumbore, simd: Level::best(), tile: 8, depth_bits: 2, apart: 8 }
+        Self { kernel: KernelId::MollerTrumbore, simd: Level::best(), tile: 8, depth_bits: 2, large: 8 }
     }
 }
 

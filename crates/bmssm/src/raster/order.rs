@@ -100,12 +100,12 @@ pub(super) fn sorted(shown: &[Shown], raster: &Raster, settings: &Settings) -> R
         Projection::Parallel => (far - depth) * unit,
         Projection::Perspective => (far / depth).ln() * unit,
     };
-    let apart = settings.apart;
+    let large = settings.large;
     let last = ((1 << BITS) - 1) as f32;
     let code = |s: &Shown| {
         let middle = |[a, b]: [u32; 2]| (((a + b) as f32 * 0.5 * slice) as u32).min((1 << BITS) - 1);
         let size = (s.rows[1] - s.rows[0]).max(s.cols[1] - s.cols[0]) + 1;
-        let class = u32::from(size > apart) + u32::from(size > 4 * apart) + u32::from(size > 16 * apart);
+        let class = u32::from(size > large) + u32::from(size > 4 * large) + u32::from(size > 16 * large);
         let z = (last - deep(s.depth)).clamp(0.0, last) as u32;
         class << (3 * BITS) | spread(middle(s.cols)) << 2 | spread(middle(s.rows)) << 1 | spread(z)
     };

@@ -75,8 +75,8 @@ fn check(scene: &Scene, raster: &Raster, settings: Settings) -> usize {
     let mut expected = vec![None; rays.len()];
     let brute = Brute::new(settings.kernel).build(scene, &workload).expect("brute force");
     brute.trace(&rays, &mut expected);
-    let Settings { kernel, simd, tile, depth_bits, apart } = settings;
-    let settings = fast::Settings { kernel, simd, tile, depth_bits, apart, ..fast::Settings::default() };
+    let Settings { kernel, simd, tile, depth_bits, large } = settings;
+    let settings = fast::Settings { kernel, simd, tile, depth_bits, large, ..fast::Settings::default() };
     let built = fast::Bmssm { settings }.build(scene, &workload).expect("a raster is served");
     let mut hits = vec![Some(Hit { t: -1.0, object: 7, u: 0.0, v: 0.0 }); rays.len()];
     built.trace(&rays, &mut hits);
@@ -119,9 +119,9 @@ fn any_size_of_image_and_tile() {
     let eye = Vec3::new(-1.5, 2.0, 1.0);
     for size in [[1, 1], [1, 50], [3, 4], [5, 9], [33, 31], [128, 4]] {
         for projection in BOTH {
-            for (tile, depth_bits, apart) in [(8, 2, 8), (1, 0, 1), (3, 12, 1000)] {
+            for (tile, depth_bits, large) in [(8, 2, 8), (1, 0, 1), (3, 12, 1000)] {
                 let raster = look(projection, size, eye, Vec3::ZERO, 1.2);
-                check(&scene, &raster, Settings { tile, depth_bits, apart, ..Settings::default() });
+                check(&scene, &raster, Settings { tile, depth_bits, large, ..Settings::default() });
             }
         }
     }

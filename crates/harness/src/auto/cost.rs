@@ -11,7 +11,7 @@ use primitives::KernelId;
 use std::time::Duration;
 
 /// Rays of a batch that are timed, at most.
-const MOST_RAYS: usize = 1 << 14;
+const MAX_RAYS: usize = 1 << 14;
 
 /// Times that every kernel is timed; the least counts, for whatever disturbs makes it longer.
 const ROUNDS: usize = 5;
@@ -37,7 +37,7 @@ pub fn costs(choice: &Choice, scene: &Scene, batches: &[Batch], kernels: &[Kerne
 
 fn batch_costs(choices: &[Choice], scene: &Scene, batch: &Batch) -> Vec<Option<f64>> {
     let traits = &choices[0].entry.traits;
-    let mut rays = subsample(batch.rays, MOST_RAYS);
+    let mut rays = subsample(batch.rays, MAX_RAYS);
     let workload = if traits.by_workload { Workload::of(&rays) } else { Workload::GENERAL };
     let built: Vec<_> = choices.iter().map(|choice| guarded_build(choice, scene, &workload).ok()).collect();
     if let Some(accel) = built.iter().flatten().next().filter(|_| workload.raster.is_none()) {

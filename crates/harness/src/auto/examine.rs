@@ -19,7 +19,7 @@ struct Known {
 /// Examines kernels on the rays of a scene of triangles.
 ///
 /// The exact kernel says which answers are right; every nearest hit on which another kernel
-/// or a foreign structure differs in more than the last digits of t is judged by the oracle besides.
+/// or an external structure differs in more than the last digits of t is judged by the oracle besides.
 pub struct Examiner<'s> {
     scene: &'s Scene,
     tolerance: Tolerance,

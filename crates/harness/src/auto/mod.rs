@@ -22,7 +22,7 @@ pub fn tried() -> Vec<KernelId> {
 }
 
 /// Rays examined for a decision, at most.
-const MOST_RAYS: usize = 1 << 20;
+const MAX_RAYS: usize = 1 << 20;
 
 /// A kernel and why it was chosen.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +99,7 @@ impl<'s> Decider<'s> {
 
     fn examiner(&mut self) -> &mut Examiner<'s> {
         let (scene, batches) = (self.scene, self.batches);
-        self.examiner.get_or_insert_with(|| Examiner::new(scene, batches, MOST_RAYS, Tolerance::VISIBLE))
+        self.examiner.get_or_insert_with(|| Examiner::new(scene, batches, MAX_RAYS, Tolerance::VISIBLE))
     }
 }
 

@@ -253,7 +253,7 @@ fn blank(job: &Job, asked: &RayQuery, choice: &Choice, built: &Built, rays: &Ray
     }
 }
 
-/// Compares with brute force by the structure's kernel; a foreign structure is compared with
+/// Compares with brute force by the structure's kernel; an external structure is compared with
 /// Möller–Trumbore, and where it differs the exact oracle judges.
 fn check(
     job: &Job,

@@ -9,7 +9,7 @@ pub const RESOLUTIONS: [u32; 5] = [8, 16, 32, 64, 128];
 
 /// Bytes that a structure may take for a row: with objects as large as the scene a grid of resolution 128 takes as much as
 /// the machine has, for a figure that nobody needs so exactly.
-const MOST: u64 = 2 << 30;
+const MAX: u64 = 2 << 30;
 
 /// A row for each resolution: the paper's formulas for the references that a grid registers, its
 /// layouts as built, and the compact layouts as built. None if `cancel` was asked for before all were there.
@@ -26,7 +26,7 @@ pub fn memory_rows(scene: &Scene, resolutions: &[u32], cancel: Cancel) -> Option
 fn row(scene: &Scene, n: u32, sparse: &Result<Footprint, String>, cancel: Cancel) -> MemoryRow {
     let objects = scene.geometry.len() as u64;
     let cells = f64::from(n).powi(3);
-    let built = |id: &str| footprint(scene, &format!("{id}:resolution={n},memory={MOST}"), cancel);
+    let built = |id: &str| footprint(scene, &format!("{id}:resolution={n},memory={MAX}"), cancel);
     let (list, dense) = (built("ssm-list"), built("bmssm-dense"));
     let compact = built("ssm");
     // The compact grid may share a reference between objects, so the lists say how many there are.

@@ -26,7 +26,7 @@ pub struct Options {
     pub build_time: Duration,
     /// Ray-object tests of brute force for the check of a ray set.
     pub check_tests: u64,
-    /// Rays of a foreign structure judged exactly, besides those that differ from brute force.
+    /// Rays of an external structure judged exactly, besides those that differ from brute force.
     pub exact_rays: usize,
     /// Box tests in a sample of a structure whose time grows with the number of objects.
     pub linear_tests: u64,

@@ -24,7 +24,7 @@ pub(super) struct Regular {
 const OPEN: [&str; 5] = ["/dev/fd", "/dev/stdin", "/dev/stdout", "/dev/stderr", "/proc"];
 
 /// Links that are followed one after another, as systems have it.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 impl Place {
     pub fn of(path: &Path) -> io::Result<Self> {
@@ -48,7 +48,7 @@ impl Place {
 /// Where links lead that end at nothing.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         match fs::read_link(&path) {
             Ok(to) => path = path.parent().map_or(to.clone(), |folder| folder.join(&to)),
             Err(_) => return Ok(path),

@@ -146,7 +146,7 @@ impl Choice {
         Ok(Self { spec: spec.clone(), entry, kernel, builder })
     }
 
-    /// The name of the ray-triangle test: one of the suite's, `own` for a foreign structure's, or `auto` while
+    /// The name of the ray-triangle test: one of the suite's, `own` for an external structure's, or `auto` while
     /// it is not decided.
     pub fn kernel(&self) -> &'static str {
         self.kernel.name()

@@ -12,7 +12,7 @@ use lanes::{Row, Scalar, Simd};
 pub struct BoundingBox;
 
 /// Directions' components count as this at least, so that their reciprocals are finite and no product is NaN.
-const LEAST: f32 = 1.0 / (1u128 << 100) as f32;
+const MIN: f32 = 1.0 / (1u128 << 100) as f32;
 
 /// A ray with the reciprocals of its direction.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ pub struct SlabsLanes<S: Simd> {
 
 #[inline(always)]
 fn inverse<S: Simd>(s: S, component: S::F) -> S::F {
-    let (zero, least) = (s.splat(0.0), s.splat(LEAST));
+    let (zero, least) = (s.splat(0.0), s.splat(MIN));
     let least = s.select(s.lt(component, zero), s.sub(zero, least), least);
     s.div(s.splat(1.0), s.select(s.lt(s.abs(component), s.abs(least)), least, component))
 }

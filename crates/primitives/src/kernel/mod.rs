@@ -112,9 +112,9 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// One ray against one triangle.
     #[inline]
     fn test(ray: &Self::One, corners: &Corners, t_max: f32) -> Option<Surface> {
-        const MOST_ROWS: usize = 16;
-        const { assert!(Self::ROWS <= MOST_ROWS) };
-        let mut group = [Row([0.0; ROW]); MOST_ROWS];
+        const MAX_ROWS: usize = 16;
+        const { assert!(Self::ROWS <= MAX_ROWS) };
+        let mut group = [Row([0.0; ROW]); MAX_ROWS];
         Self::pack(corners, &mut group[..Self::ROWS], 0);
         let Lanes { hit, t, u, v } =
             Self::triangles(Scalar, ray, Packed::new(&group[..Self::ROWS], 0), 1, t_max);

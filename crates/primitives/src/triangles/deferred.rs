@@ -13,7 +13,7 @@ use lanes::packet::{Bounds, Lanes, NearestPacket, Packet, Pairs};
 use lanes::{Blocks, ROW, Row, Scalar, Simd};
 
 /// As many rows as kernels pack, or more.
-const MOST_ROWS: usize = 16;
+const MAX_ROWS: usize = 16;
 
 impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     const LIMIT_ROWS: usize = 0;
@@ -316,14 +316,14 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
     /// Resolves the pending hits of the lanes `which`; `best` holds their slots.
     #[inline(always)]
     fn resolve_lanes<S: Simd>(&self, s: S, rays: &Packet<S>, which: u32, best: &mut NearestPacket<S>) {
-        const { assert!(K::ROWS <= MOST_ROWS) };
+        const { assert!(K::ROWS <= MAX_ROWS) };
         let deferred = s.bits(pending(s, best)) & which;
         if deferred == 0 {
             return;
         }
         let mut slots = [0; ROW];
         s.store_u(best.object, &mut slots);
-        let mut group = [Row([0.0; ROW]); MOST_ROWS];
+        let mut group = [Row([0.0; ROW]); MAX_ROWS];
         let mut left = deferred;
         while let Some(lane) = next_lane(&mut left) {
             let slot = slots[lane] as usize;

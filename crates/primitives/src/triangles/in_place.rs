@@ -9,7 +9,7 @@ use lanes::packet::{NearestPacket, Packet};
 use lanes::{EMPTY_SLOT, ROW, Row, Simd, Task};
 
 /// As many rows as kernels pack, or more.
-const MOST_ROWS: usize = 16;
+const MAX_ROWS: usize = 16;
 
 /// [`Search::in_place`], apart from what is done with packed triangles. It takes copies of the ray and its nearest hit, as
 /// the originals can then stay in registers.
@@ -57,8 +57,8 @@ impl<K: TriangleKernel> TriangleBlocks<'_, K> {
         }
         let frame = &self.triangles.frame;
         let corners = self.triangles.corners(object);
-        const { assert!(K::ROWS <= MOST_ROWS) };
-        let mut group = [Row([0.0; ROW]); MOST_ROWS];
+        const { assert!(K::ROWS <= MAX_ROWS) };
+        let mut group = [Row([0.0; ROW]); MAX_ROWS];
         K::pack(&frame.corners(&corners), &mut group[..K::ROWS], 0);
         let lanes = K::rays(s, &rays.prepared, Packed::new(&group[..K::ROWS], 0), best.t);
         if s.bits(lanes.hit) != 0 {

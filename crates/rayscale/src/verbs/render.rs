@@ -89,7 +89,7 @@ struct Size {
 const EXACT: &str = "exact";
 
 /// Pixels that a picture may have: their hits and colours take 2 GiB.
-const MOST_PIXELS: u64 = 1 << 26;
+const MAX_PIXELS: u64 = 1 << 26;
 
 impl FromStr for Size {
     type Err = String;
@@ -101,8 +101,8 @@ impl FromStr for Size {
             _ => Err("must be a number of pixels such as 512, or 640x480, each at least 1".to_owned()),
         };
         let size = Self { cols: number(cols)?, rows: number(rows)? };
-        if u64::from(size.cols) * u64::from(size.rows) > MOST_PIXELS {
-            return Err(format!("more than {} pixels", units::count(MOST_PIXELS)));
+        if u64::from(size.cols) * u64::from(size.rows) > MAX_PIXELS {
+            return Err(format!("more than {} pixels", units::count(MAX_PIXELS)));
         }
         Ok(size)
     }

@@ -33,7 +33,7 @@ the ray, by t and then by object: all triangles that share an edge are crossed w
 Numbers are in the shortest form that reads back
 to the same single-precision bits. HITS.csv appears when all of it is there, or not at all.
 
-The ray-triangle test is moller-trumbore unless --kernel says otherwise; foreign structures
+The ray-triangle test is moller-trumbore unless --kernel says otherwise; external structures
 (obvhs-*, embree-*) bring their own. Uses all cores unless --threads says otherwise.
 
 Examples:

@@ -16,7 +16,7 @@ const LEVEL: f64 = 1.03;
 pub fn summary(record: &Record, overall: &[Overall], threads: usize) -> Markup {
     let mut items: Vec<Markup> = overall.iter().map(who_wins).collect();
     items.extend(ours(record, overall, threads));
-    items.extend(least_memory(record, threads));
+    items.extend(min_memory(record, threads));
     items.push(checks(record));
     items.extend(left_out(record));
     html! { ul.summary { @for item in &items { li { (item) } "\n" } } }
@@ -92,7 +92,7 @@ fn ours(record: &Record, overall: &[Overall], threads: usize) -> Vec<Markup> {
 }
 
 /// Bytes per object of every structure, the least first.
-fn least_memory(record: &Record, threads: usize) -> Option<Markup> {
+fn min_memory(record: &Record, threads: usize) -> Option<Markup> {
     let mut medians: Vec<(f64, &str)> = record
         .structure_ids()
         .into_iter()
@@ -114,7 +114,7 @@ fn least_memory(record: &Record, threads: usize) -> Option<Markup> {
 
 /// Whether the answers were right.
 fn checks(record: &Record) -> Markup {
-    let (own, foreign): (Vec<&Cell>, Vec<&Cell>) = record
+    let (own, external): (Vec<&Cell>, Vec<&Cell>) = record
         .cells
         .iter()
         .filter(|cell| cell.check.is_some())
@@ -125,7 +125,7 @@ fn checks(record: &Record) -> Markup {
     };
     let rays = |cells: &[&Cell]| units::count(sum(cells, |check| check.rays_checked));
     let differences = |cells: &[&Cell]| sum(cells, |check| check.differences);
-    if own.is_empty() && foreign.is_empty() {
+    if own.is_empty() && external.is_empty() {
         return html! { "No answer was checked against brute force." };
     }
     html! {
@@ -138,10 +138,10 @@ fn checks(record: &Record) -> Markup {
                 }
             }
         }
-        @if !foreign.is_empty() {
+        @if !external.is_empty() {
             @if !own.is_empty() { "; " }
-            "structures with a test of their own give other bits on " (units::count(differences(&foreign))) " of "
-            (rays(&foreign)) " (what is wrong by exact arithmetic is under " a href="#errors" { "errors" } ")"
+            "structures with a test of their own give other bits on " (units::count(differences(&external))) " of "
+            (rays(&external)) " (what is wrong by exact arithmetic is under " a href="#errors" { "errors" } ")"
         }
         "."
     }

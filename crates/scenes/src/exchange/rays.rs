@@ -134,10 +134,10 @@ fn number(text: &[u8]) -> Option<f32> {
 
 /// Text for a message: printable and short.
 fn show(text: &[u8]) -> String {
-    const MOST: usize = 60;
-    let printable = text.iter().take(MOST).flat_map(|b| std::ascii::escape_default(*b)).map(char::from);
+    const MAX: usize = 60;
+    let printable = text.iter().take(MAX).flat_map(|b| std::ascii::escape_default(*b)).map(char::from);
     let mut shown: String = printable.collect();
-    if text.len() > MOST {
+    if text.len() > MAX {
         shown.push('…');
     }
     shown

@@ -13,7 +13,7 @@ pub const SPREAD: f64 = 1000.0;
 /// Triangles of the least thing, a wedge.
 const WEDGE: usize = 8;
 /// The fewest triangles: a floor with one wedge.
-pub const LEAST: u32 = WEDGE as u32 + 2;
+pub const MIN: u32 = WEDGE as u32 + 2;
 
 /// Boxes, prisms and tubes on a floor of two triangles, which is 2 wide: `count` triangles in all, or
 /// up to seven fewer. Their sizes are log-uniform over three decades; into how many pieces their sides

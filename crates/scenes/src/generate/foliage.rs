@@ -13,7 +13,7 @@ const WOOD: u32 = 4;
 /// A branch's length over its width at the base.
 const SLENDER: f64 = 14.0;
 /// The fewest triangles: a trunk with one leaf.
-pub const LEAST: u32 = BRANCH + 2;
+pub const MIN: u32 = BRANCH + 2;
 
 struct Twig {
     base: DVec3,

@@ -30,7 +30,7 @@ pub const MAX_OBJECTS: u64 = 1 << 26;
 
 /// Edges around a solid at most: what is made once for all spheres of a scene takes the square of them, whether there are
 /// spheres or not.
-const MOST_SEGMENTS: u32 = 2048;
+const MAX_SEGMENTS: u32 = 2048;
 
 /// A scene family with its parameters, as the `[generator]` table of a definition says it.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -291,8 +291,8 @@ impl Generator {
             if usable { Ok(()) } else { Err(format!("{name} must be a positive number, not {value}")) }
         };
         match *self {
-            Self::Spd { segments, .. } if segments > MOST_SEGMENTS => {
-                return Err(format!("segments must be at most {MOST_SEGMENTS}, not {segments}"));
+            Self::Spd { segments, .. } if segments > MAX_SEGMENTS => {
+                return Err(format!("segments must be at most {MAX_SEGMENTS}, not {segments}"));
             }
             Self::Boxes { side, .. } => positive("side", side)?,
             Self::Triangles { edge, .. } => positive("edge", edge)?,
@@ -307,9 +307,9 @@ impl Generator {
             _ => {}
         }
         let least = match *self {
-            Self::Foliage { .. } => foliage::LEAST,
+            Self::Foliage { .. } => foliage::MIN,
             Self::Strands { .. } => strands::STRAND,
-            Self::Clutter { .. } => clutter::LEAST,
+            Self::Clutter { .. } => clutter::MIN,
             _ => 1,
         };
         let size = match *self {

@@ -2,7 +2,7 @@
 //! groups, materials and their libraries, lines, points) is passed over.
 
 use super::lines::Lines;
-use super::polygons::{MOST, Polygons};
+use super::polygons::{MAX, Polygons};
 use super::second_look;
 use crate::error::SceneError;
 use accel::{Mesh, Vec3};
@@ -82,8 +82,8 @@ fn vertex(corner: &[u8]) -> &[u8] {
 
 fn add(model: &tobj::Mesh, polygons: &mut Polygons) -> Result<(), String> {
     let vertices = model.positions.len() / 3;
-    if vertices > MOST {
-        return Err(format!("more than {MOST} vertices"));
+    if vertices > MAX {
+        return Err(format!("more than {MAX} vertices"));
     }
     let points = model.positions.chunks_exact(3);
     polygons.mesh.positions.extend(points.map(|p| Vec3::new(p[0], p[1], p[2])));

@@ -1,7 +1,7 @@
 //! ASCII PLY (G. Turk 1994, <http://paulbourke.net/dataformats/ply/>): vertices and faces.
 
 use super::lines::{Lines, show};
-use super::polygons::{MOST, Polygons};
+use super::polygons::{MAX, Polygons};
 use super::position::position;
 use crate::error::SceneError;
 use accel::Mesh;
@@ -92,8 +92,8 @@ fn header(lines: &mut Lines<impl Read>) -> Result<Vec<Element>, SceneError> {
 
 fn vertex(lines: &Lines<impl Read>, element: &Element, mesh: &mut Mesh) -> Result<(), SceneError> {
     let number = mesh.positions.len() + 1;
-    if number > MOST {
-        return Err(lines.too_large("vertices", MOST));
+    if number > MAX {
+        return Err(lines.too_large("vertices", MAX));
     }
     let mut words = lines.words(None);
     let mut xyz: [Option<&[u8]>; 3] = [None; 3];
@@ -151,7 +151,7 @@ fn face(
                 lines.syntax(format!("the face announces {length} corners and has {}", corners.len()))
             );
         }
-        return polygons.fan(&corners).map_err(|_| lines.too_large("triangles", MOST));
+        return polygons.fan(&corners).map_err(|_| lines.too_large("triangles", MAX));
     }
     Err(lines.syntax("the faces have no property `vertex_indices`".into()))
 }

@@ -3,7 +3,7 @@
 use accel::Mesh;
 
 /// The most vertices or triangles of a mesh: one number is left over to mean "none".
-pub const MOST: usize = u32::MAX as usize - 1;
+pub const MAX: usize = u32::MAX as usize - 1;
 
 /// A mesh and what of its file is not in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +28,8 @@ impl Polygons {
             self.skipped += 1;
             return Ok(());
         }
-        if self.mesh.triangles.len() + corners.len() > MOST {
-            return Err(format!("more than {MOST} triangles"));
+        if self.mesh.triangles.len() + corners.len() > MAX {
+            return Err(format!("more than {MAX} triangles"));
         }
         self.mesh.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
         Ok(())

@@ -1,7 +1,7 @@
 //! What is wrong with an OBJ file, and in which line.
 
 use super::lines::{Lines, show};
-use super::polygons::MOST;
+use super::polygons::MAX;
 use super::position::position;
 use crate::error::SceneError;
 use std::io::Read;
@@ -22,8 +22,8 @@ pub fn at(mut lines: Lines<impl Read>) -> Result<(), SceneError> {
                 let (Some(x), Some(y), Some(z)) = (words.next(), words.next(), words.next()) else {
                     return Err(lines.syntax(format!("vertex {vertices} has less than three coordinates")));
                 };
-                if vertices > MOST {
-                    return Err(lines.too_large("vertices", MOST));
+                if vertices > MAX {
+                    return Err(lines.too_large("vertices", MAX));
                 }
                 position(&lines, [x, y, z], vertices)?;
             }
@@ -38,8 +38,8 @@ pub fn at(mut lines: Lines<impl Read>) -> Result<(), SceneError> {
                     greatest = greatest.max((index + 1, lines.number()));
                 }
                 faces += corners.len() - 2;
-                if faces > MOST {
-                    return Err(lines.too_large("triangles", MOST));
+                if faces > MAX {
+                    return Err(lines.too_large("triangles", MAX));
                 }
             }
             _ => {}
@@ -65,7 +65,7 @@ fn corner(lines: &Lines<impl Read>, word: &[u8], vertices: usize) -> Result<u32,
         .and_then(|text| text.parse().ok())
         .ok_or_else(|| lines.syntax(format!("a face has `{}` for a corner", show(word))))?;
     let absolute = if index < 0 { index.saturating_add(vertices as i64) } else { index - 1 };
-    if (0..MOST as i64).contains(&absolute) {
+    if (0..MAX as i64).contains(&absolute) {
         return Ok(absolute as u32);
     }
     let (path, line) = (lines.path().to_owned(), lines.number());

@@ -1,6 +1,6 @@
 //! Cones and cylinders in rows.
 
-use super::{Found, MOST_ROWS, Packing, Prepared, Values, along, dot, first, sub3};
+use super::{Found, MAX_ROWS, Packing, Prepared, Values, along, dot, first, sub3};
 use accel::solid::Shape;
 use accel::{Aabb, Solid};
 use lanes::Simd;
@@ -16,14 +16,14 @@ pub struct Cones;
 impl Packing for Cones {
     const ROWS: usize = 15;
 
-    fn numbers(solid: &Solid) -> Option<[f32; MOST_ROWS]> {
+    fn numbers(solid: &Solid) -> Option<[f32; MAX_ROWS]> {
         let Solid::Cone(cone) = solid else { return None };
         let (base, axis) = (cone.base.as_dvec3(), cone.top.as_dvec3() - cone.base.as_dvec3());
         let height = axis.length();
         let axis = (axis / height).as_vec3();
         let slope = (f64::from(cone.top_radius) - f64::from(cone.base_radius)) / height;
         let Aabb { min, max } = cone.bounds();
-        let mut numbers = [0.0; MOST_ROWS];
+        let mut numbers = [0.0; MAX_ROWS];
         numbers[..3].copy_from_slice(&cone.base.to_array());
         numbers[3..6].copy_from_slice(&axis.to_array());
         numbers[6..9].copy_from_slice(&[height as f32, cone.base_radius, slope as f32]);

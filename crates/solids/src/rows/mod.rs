@@ -14,10 +14,10 @@ use lanes::packet::{Lanes, Packet, Vec3Lanes, permute3};
 use lanes::{Row, Simd};
 
 /// More rows than any kind has.
-pub const MOST_ROWS: usize = 15;
+pub const MAX_ROWS: usize = 15;
 
 /// The numbers of `LANES` objects.
-pub type Values<S> = [<S as Simd>::F; MOST_ROWS];
+pub type Values<S> = [<S as Simd>::F; MAX_ROWS];
 
 /// A ray and what is the same for all objects.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +88,7 @@ pub trait Packing: 'static {
     const HAS_EXACT: bool = false;
 
     /// The numbers of a solid, if it is of this kind.
-    fn numbers(solid: &Solid) -> Option<[f32; MOST_ROWS]>;
+    fn numbers(solid: &Solid) -> Option<[f32; MAX_ROWS]>;
 
     /// Tests rays against objects in as many lanes, with t up to `t_max`.
     fn test<S: Simd>(s: S, ray: &Prepared<S::F>, values: &Values<S>, t_max: S::F) -> Found<S>;
@@ -97,7 +97,7 @@ pub trait Packing: 'static {
 /// `LANES` objects of a group from a lane on.
 #[inline(always)]
 pub fn load<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S> {
-    let mut values = [s.splat(0.0); MOST_ROWS];
+    let mut values = [s.splat(0.0); MAX_ROWS];
     for (value, row) in values.iter_mut().zip(&group[..K::ROWS]) {
         *value = s.load(&row.0[lane..]);
     }
@@ -107,7 +107,7 @@ pub fn load<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S> 
 /// One object of a group in all lanes.
 #[inline(always)]
 pub fn splat<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S> {
-    let mut values = [s.splat(0.0); MOST_ROWS];
+    let mut values = [s.splat(0.0); MAX_ROWS];
     for (value, row) in values.iter_mut().zip(&group[..K::ROWS]) {
         *value = s.splat(row.0[lane]);
     }
@@ -117,7 +117,7 @@ pub fn splat<K: Packing, S: Simd>(s: S, group: &[Row], lane: usize) -> Values<S>
 /// One object against one ray.
 #[inline(always)]
 pub fn one<K: Packing>(
-    numbers: &[f32; MOST_ROWS],
+    numbers: &[f32; MAX_ROWS],
     ray: &Ray,
     pad: f32,
     t_max: f32,

@@ -1,6 +1,6 @@
 //! Balls in rows.
 
-use super::{Found, MOST_ROWS, Packing, Prepared, Values, along, dot, first, sub3};
+use super::{Found, MAX_ROWS, Packing, Prepared, Values, along, dot, first, sub3};
 use accel::Solid;
 use lanes::Simd;
 use lanes::packet::Lanes;
@@ -16,9 +16,9 @@ impl Packing for Spheres {
     const ROWS: usize = 4;
     const HAS_EXACT: bool = true;
 
-    fn numbers(solid: &Solid) -> Option<[f32; MOST_ROWS]> {
+    fn numbers(solid: &Solid) -> Option<[f32; MAX_ROWS]> {
         let Solid::Sphere(sphere) = solid else { return None };
-        let mut numbers = [0.0; MOST_ROWS];
+        let mut numbers = [0.0; MAX_ROWS];
         numbers[..3].copy_from_slice(&sphere.center.to_array());
         numbers[3] = sphere.radius;
         Some(numbers)

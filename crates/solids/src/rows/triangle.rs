@@ -1,6 +1,6 @@
 //! Triangles in rows.
 
-use super::{Found, MOST_ROWS, Packing, Prepared, Values, along, dot, sub3};
+use super::{Found, MAX_ROWS, Packing, Prepared, Values, along, dot, sub3};
 use accel::Solid;
 use lanes::Simd;
 use lanes::packet::{Lanes, Vec3Lanes};
@@ -13,9 +13,9 @@ pub struct Triangles;
 impl Packing for Triangles {
     const ROWS: usize = 9;
 
-    fn numbers(solid: &Solid) -> Option<[f32; MOST_ROWS]> {
+    fn numbers(solid: &Solid) -> Option<[f32; MAX_ROWS]> {
         let Solid::Triangle([a, b, c]) = solid else { return None };
-        let mut numbers = [0.0; MOST_ROWS];
+        let mut numbers = [0.0; MAX_ROWS];
         numbers[..3].copy_from_slice(&a.to_array());
         numbers[3..6].copy_from_slice(&(*b - *a).to_array());
         numbers[6..9].copy_from_slice(&(*c - *a).to_array());

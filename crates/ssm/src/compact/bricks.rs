@@ -17,13 +17,13 @@ const SHIFT: u32 = 2;
 pub(super) const BRICK: usize = 64;
 
 /// Most levels of bricks within cells.
-const MOST_LEVELS: usize = 7;
+const MAX_LEVELS: usize = 7;
 
 /// How the cells lie, and which of them hold anything.
 #[derive(Debug)]
 pub(super) struct BrickGrid {
     /// Slices on each axis, of the finest level.
-    lattice: Grid,
+    finest: Grid,
     frame: Frame,
     /// How often a cell may be divided.
     levels: u32,
@@ -47,16 +47,16 @@ pub(super) trait Visit {
 }
 
 impl BrickGrid {
-    /// The lattice of a grid whose cells may be divided so often, or less where slices
+    /// The finest level of a grid whose cells may be divided so often, or less where slices
     /// would become too thin.
     pub fn new(grid: &Grid, levels: u32) -> Self {
         let finest =
             |levels: u32| Grid::new(*grid.bounds(), grid.resolution().map(|n| n << (SHIFT * levels)));
-        let divided = (0..=levels.min(MOST_LEVELS as u32)).rev().find_map(|l| Some((finest(l).ok()?, l)));
-        let (lattice, levels) = divided.unwrap_or((*grid, 0));
+        let divided = (0..=levels.min(MAX_LEVELS as u32)).rev().find_map(|l| Some((finest(l).ok()?, l)));
+        let (finest, levels) = divided.unwrap_or((*grid, 0));
         let bricks = grid.resolution().map(|n| n.div_ceil(EDGE));
-        let frame = Frame::new(&lattice);
-        Self { lattice, frame, levels, bricks, occupied: Box::new([]), divided: Box::new([]) }
+        let frame = Frame::new(&finest);
+        Self { finest, frame, levels, bricks, occupied: Box::new([]), divided: Box::new([]) }
     }
 
     /// How often a cell may be divided.
@@ -71,7 +71,7 @@ impl BrickGrid {
 
     /// The slices of the finest level that a box touches.
     pub fn slices(&self, bounds: &Aabb) -> [Range<u32>; 3] {
-        [0, 1, 2].map(|axis| self.lattice.slices(axis, bounds))
+        [0, 1, 2].map(|axis| self.finest.slices(axis, bounds))
     }
 
     /// Appends the cells of the grid that any of these slices of the finest level reach, brick by brick.
@@ -165,7 +165,7 @@ impl BrickGrid {
                 continue;
             }
             let mut node = index;
-            let mut parents = [0u32; MOST_LEVELS];
+            let mut parents = [0u32; MAX_LEVELS];
             let mut shift = top;
             let mut cells = segment.from(segment.cell_within(enter, shift, brick), shift);
             'node: loop {

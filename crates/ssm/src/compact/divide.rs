@@ -124,7 +124,7 @@ impl Slices {
         order: &[u32],
         (limit, cancel): (Limit, Cancel),
     ) -> Result<Vec<Self>, BuildError> {
-        const { assert!(Grid::MOST_SLICES <= u16::MAX as u32) };
+        const { assert!(Grid::MAX_SLICES <= u16::MAX as u32) };
         let of = |object: &u32| match *object {
             EMPTY_SLOT => Self::NOWHERE,
             object => Self(bricks.slices(&objects.bounds(object)).map(|r| [r.start as u16, r.end as u16])),

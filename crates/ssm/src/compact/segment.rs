@@ -9,7 +9,7 @@ use lanes::{ROW, Scalar, Simd};
 /// Maps the unit coordinates of a grid to its cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    lattice: Grid,
+    finest: Grid,
     /// Cells for each unit, or 0 for an axis without extent.
     scale: [f32; 3],
     /// The place of the lower bounds, in cells.
@@ -63,26 +63,26 @@ impl UnitBox {
 }
 
 impl Frame {
-    pub fn new(lattice: &Grid) -> Self {
-        Self::with_inset(lattice, INSET)
+    pub fn new(finest: &Grid) -> Self {
+        Self::with_inset(finest, INSET)
     }
 
-    fn with_inset(lattice: &Grid, inset: f64) -> Self {
-        let extent = lattice.bounds().max.as_dvec3() - lattice.bounds().min.as_dvec3();
+    fn with_inset(finest: &Grid, inset: f64) -> Self {
+        let extent = finest.bounds().max.as_dvec3() - finest.bounds().min.as_dvec3();
         let (mut scale, mut first, mut parallel) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-        for (a, n) in lattice.resolution().into_iter().enumerate() {
+        for (a, n) in finest.resolution().into_iter().enumerate() {
             let (n, flat) = (f64::from(n), extent[a] <= 0.0);
             scale[a] = if flat { 0.0 } else { (n * (1.0 - 2.0 * inset)) as f32 };
             first[a] = (n * if flat { 0.5 } else { inset }) as f32;
             parallel[a] = (n * PARALLEL) as f32;
         }
-        Self { lattice: *lattice, scale, first, parallel }
+        Self { finest: *finest, scale, first, parallel }
     }
 
     /// A box in unit coordinates.
     pub fn unit_box(&self, bounds: &Aabb) -> UnitBox {
         let margin = accel::grid::MARGIN as f32;
-        let unit = |axis: usize, value: f32| self.lattice.unit(axis, f64::from(value)) as f32;
+        let unit = |axis: usize, value: f32| self.finest.unit(axis, f64::from(value)) as f32;
         let low = [0, 1, 2].map(|axis| unit(axis, bounds.min[axis]) - margin);
         let high = [0, 1, 2].map(|axis| unit(axis, bounds.max[axis]) + margin);
         UnitBox([low[0], low[1], low[2], 0.0, high[0], high[1], high[2], 0.0])
@@ -92,7 +92,7 @@ impl Frame {
     #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> SegmentRows {
         let mut rows = SegmentRows::NONE;
-        if let Some(segment) = self.lattice.clip(ray) {
+        if let Some(segment) = self.finest.clip(ray) {
             let (start, delta) = (segment.start.to_array(), segment.delta.to_array());
             self.prepare(Scalar, start, delta, &mut rows, 0);
             (rows.met[0], rows.spans[0]) = (true, segment.span());
@@ -103,7 +103,7 @@ impl Frame {
     /// The same of each of several rays.
     #[inline(always)]
     pub fn clip_rows<S: Simd>(&self, s: S, rays: &RayRows<ROW>) -> SegmentRows {
-        let segments = self.lattice.clip_rows(rays);
+        let segments = self.finest.clip_rows(rays);
         let mut rows = SegmentRows { met: segments.met, ..SegmentRows::NONE };
         for at in (0..ROW).step_by(S::LANES) {
             let (mut start, mut delta) = ([s.splat(0.0); 3], [s.splat(0.0); 3]);

@@ -6,7 +6,7 @@ use accel::{Aabb, Corners, Mesh, Vec3, morton};
 const BLOCK: usize = 64;
 
 /// A triangle is grown by at most so many steps at a corner: one as thin as a needle would reach through the whole scene.
-const MOST_GROWN: f64 = 16.0;
+const MAX_GROWN: f64 = 16.0;
 
 /// How corners are rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,7 +159,7 @@ fn grow(corners: Corners, by: f64) -> Corners {
     let centre = (a * x + b * y + c * z) / around;
     corners.map(|p| {
         let out = p.as_dvec3() - centre;
-        let far = (out * (by / radius)).clamp_length_max(MOST_GROWN * by);
+        let far = (out * (by / radius)).clamp_length_max(MAX_GROWN * by);
         (p.as_dvec3() + far).as_vec3()
     })
 }
@@ -199,7 +199,7 @@ mod tests {
                 Rounding::Half => extent / 2048.0,
                 _ => extent * 2f64.powi(-(rounding.bits() as i32)),
             };
-            let most = if matches!(rounding, Rounding::Grown(_)) { (1.0 + MOST_GROWN) * step } else { step };
+            let most = if matches!(rounding, Rounding::Grown(_)) { (1.0 + MAX_GROWN) * step } else { step };
             assert!(moved <= most + extent * 1e-6 && moved > 0.0, "{rounding:?}: {moved}");
         }
     }

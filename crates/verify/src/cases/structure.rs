@@ -34,12 +34,12 @@ pub fn structure(numbers: &mut impl Numbers, kernel: KernelId, finest: u32) -> S
             format!("ssm:kernel={kernel}{simd}{cells}{divide}")
         }
         _ => {
-            let stretch = numbers.one_of(&["", ",stretch=64", ",stretch=256"]);
+            let exact_split = numbers.one_of(&["", ",exact_split=64", ",exact_split=256"]);
             let geometry = numbers.one_of(&["", ",geometry=scene", ",geometry=rows"]);
             let tile = numbers.one_of(&["", ",tile=1", ",tile=16"]);
             let depth = numbers.one_of(&["", ",depth_bits=0", ",depth_bits=8"]);
-            let apart = numbers.one_of(&["", ",apart=1", ",apart=65536"]);
-            format!("bmssm:kernel={kernel}{simd}{stretch}{geometry}{tile}{depth}{apart}")
+            let large = numbers.one_of(&["", ",large=1", ",large=65536"]);
+            format!("bmssm:kernel={kernel}{simd}{exact_split}{geometry}{tile}{depth}{large}")
         }
     }
 }

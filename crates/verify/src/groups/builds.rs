@@ -1,8 +1,8 @@
 //! Builds that are cancelled, limited, repeated or done by many threads.
 
-use super::group::Group;
+use super::group::{CLOSE, Group};
 use super::subject::{Subject, Verdict};
-use crate::cases::{self, Reach, Shape};
+use crate::cases::{self, Shape};
 use crate::compare::same;
 use accel::{Cancel, Ray, RaySet, Scene, Workload};
 use harness::registry::{Choice, guarded_build, guarded_build_unless};
@@ -11,21 +11,15 @@ use scenes::Random;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 pub(super) const GROUPS: &[Group] = &[
-    Group {
-        name: "builds/cancelled",
-        about: "cancelled at each moment where it looks: an error, and nothing kept",
-        ask: cancelled,
-    },
-    Group {
-        name: "builds/limited",
-        about: "with every limit of memory: built within it, or an error within it",
-        ask: limited,
-    },
+    Group { name: "builds/limited", about: "built within any limit of memory, or an error", ask: limited },
     Group { name: "builds/threads", about: "eight threads build at a time: the same answers", ask: threads },
     Group { name: "builds/memory", about: "built and dropped: memory is back to what it was", ask: memory },
+    Group {
+        name: "builds/cancelled",
+        about: "cancelled whenever it looks: an error, nothing kept",
+        ask: cancelled,
+    },
 ];
-
-const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
 
 fn case() -> (Scene, Vec<Ray>) {
     let mut numbers = Random::new(40);

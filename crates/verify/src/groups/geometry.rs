@@ -1,13 +1,11 @@
 //! Geometry that nobody would draw.
 
-use super::group::Group;
+use super::group::{CLOSE, Group};
 use super::subject::{Subject, Verdict};
 use crate::cases::{self, Reach, Shape};
 use accel::{Geometry, InputError, Mesh, MeshRef, Scene, Vec3};
 use primitives::KernelId;
 use scenes::Random;
-
-const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
 
 /// A question about scenes of a shape.
 macro_rules! shaped {

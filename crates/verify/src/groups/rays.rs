@@ -1,6 +1,6 @@
 //! Rays that are none, or come from far away.
 
-use super::group::Group;
+use super::group::{CLOSE, Group};
 use super::subject::{Subject, Verdict};
 use crate::cases::{self, Reach, Shape};
 use crate::{patience, unusable};
@@ -15,17 +15,13 @@ pub(super) const GROUPS: &[Group] = &[
     Group { name: "rays/inactive", about: "ranges that end before they begin hit nothing", ask: inactive },
     Group {
         name: "rays/nan",
-        about: "NaN, infinite and zero rays, and images of them: every walk ends, and nothing is hit",
+        about: "no rays, and images of them: every walk ends, nothing is hit",
         ask: none,
     },
     Group { name: "rays/far", about: "origins 2^10 to 2^60 times the scene's size away", ask: far },
     Group { name: "rays/random", about: "random rays through random scenes", ask: random },
     Group { name: "rays/all-hits", about: "every crossing, in order, and once", ask: all_hits },
-    Group {
-        name: "rays/instructions",
-        about: "every instruction set that the machine has",
-        ask: instructions,
-    },
+    Group { name: "rays/instructions", about: "every instruction set of the machine", ask: instructions },
 ];
 
 fn case(seed: u64, reach: &Reach, count: usize) -> (Scene, Vec<Ray>) {
@@ -34,8 +30,6 @@ fn case(seed: u64, reach: &Reach, count: usize) -> (Scene, Vec<Ray>) {
     let rays = cases::rays(&mut numbers, &scene, reach, count);
     (scene, rays)
 }
-
-const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
 
 fn inactive(subject: &Subject) -> Verdict {
     let (scene, rays) = case(3, &CLOSE, 512);

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::modules::{ModuleId, Tree};
 
 /// A name handed on more often than this runs in a circle of imports.
-const MOST_HANDS: usize = 16;
+const MAX_HANDS: usize = 16;
 
 /// The modules that `path`, written in `from`, depends on: the last one it names, and the one that defines
 /// the item where the named module only hands it on. Paths to other crates lead to none.
@@ -15,7 +15,7 @@ pub fn targets(tree: &Tree, from: ModuleId, path: &[String]) -> BTreeSet<ModuleI
     if path.len() == 1 && tree.child(from, &path[0]).is_some() {
         return found;
     }
-    follow(tree, from, path, MOST_HANDS, &mut found);
+    follow(tree, from, path, MAX_HANDS, &mut found);
     found
 }
 

@@ -16,7 +16,7 @@ pub struct ParseError {
 const DEEPEST: u32 = 200;
 
 /// Nodes of one expression.
-const MOST: usize = 4096;
+const MAX: usize = 4096;
 
 /// The largest exponent.
 const HIGHEST: f64 = 64.0;
@@ -204,8 +204,8 @@ impl Parser {
         if let Some(known) = self.nodes.iter().position(|known| *known == node) {
             return Ok(known as u16);
         }
-        if self.nodes.len() == MOST {
-            return self.fail(format!("more than {MOST} operations"));
+        if self.nodes.len() == MAX {
+            return self.fail(format!("more than {MAX} operations"));
         }
         self.nodes.push(node);
         Ok((self.nodes.len() - 1) as u16)

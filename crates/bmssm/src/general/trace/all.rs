@@ -1,6 +1,6 @@
 //! All that a ray may meet, however far away.
 
-use super::{Stack, Waiting, Way, nearest_child};
+use super::{ClippedSegment, Stack, Waiting, nearest_child};
 use crate::general::General;
 use crate::general::tree::Node;
 use accel::Ray;
@@ -23,18 +23,18 @@ impl<O: PackedObjects> Task for Gather<'_, O> {
         if general.nodes.is_empty() {
             return;
         }
-        let way = Way::new(&segment);
+        let clipped = ClippedSegment::new(&segment);
         let limit = 1.0 + LIMIT_S as f32;
         let mut stack = Stack::default();
         let mut next = Some(Waiting { enter: 0.0, exit: 1.0, what: 0 });
         while let Some(Waiting { enter, exit, what }) = next {
             if what & Node::BLOCK == 0 {
-                let child = nearest_child(s, &general.nodes[what as usize], &way, limit, &mut stack);
+                let child = nearest_child(s, &general.nodes[what as usize], &clipped, limit, &mut stack);
                 next = if child.is_none() { stack.pop(limit) } else { child };
                 continue;
             }
             let block = (what & !Node::BLOCK) as usize;
-            let mut candidates = general.maps[block].candidates(s, way.at(enter), way.at(exit));
+            let mut candidates = general.maps[block].candidates(s, clipped.at(enter), clipped.at(exit));
             while candidates != 0 {
                 let slot = block * BLOCK + candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;

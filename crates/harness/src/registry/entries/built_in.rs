@@ -87,10 +87,10 @@ pub const ENTRIES: &[Entry] = &[
         settings: &bmssm::suite::fast::Settings::NAMES,
         traits: Traits { by_workload: true, any_kernel: true, ..Traits::BUILT_IN },
         variants: &[
-            "stretch=256",
+            "exact_split=256",
             "simd=portable",
             "kernel=watertight",
-            "tile=2,depth_bits=0,apart=1",
+            "tile=2,depth_bits=0,large=1",
             "kernel=quantised",
             "kernel=box",
         ],

@@ -1,14 +1,14 @@
-//! The ways of rays through the scene.
+//! Rays on their way through the scene.
 
-use super::trace::LEAST;
+use super::trace::MIN;
 use accel::grid::{RayRows, SegmentRows};
 use accel::tolerance::LIMIT_S;
 use lanes::{ROW, Simd};
 
-/// A ray's way in unit coordinates, as nodes and blocks need it.
+/// A ray on its way, in unit coordinates, as nodes and blocks need it.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub(super) struct Traveller {
+pub(super) struct TraversalState {
     /// Where it begins, and the place up to which objects must be looked at; −1 when the ray is done.
     pub start: [f32; 4],
     /// One over each component of the way, and nothing.
@@ -16,38 +16,38 @@ pub(super) struct Traveller {
 }
 
 /// Rays as nodes see them.
-pub(super) trait Way {
+pub(super) trait NodeView {
     /// By which they enter boxes; its limit is theirs.
-    fn near(&self) -> &Traveller;
+    fn near(&self) -> &TraversalState;
     /// By which they leave boxes.
-    fn far(&self) -> &Traveller;
+    fn far(&self) -> &TraversalState;
 }
 
-impl Way for Traveller {
+impl NodeView for TraversalState {
     #[inline(always)]
-    fn near(&self) -> &Traveller {
+    fn near(&self) -> &TraversalState {
         self
     }
     #[inline(always)]
-    fn far(&self) -> &Traveller {
+    fn far(&self) -> &TraversalState {
         self
     }
 }
 
-impl Traveller {
+impl TraversalState {
     pub const DONE: f32 = -1.0;
 
     pub const NONE: Self = Self { start: [0.0; 4], inverse: [0.0; 4] };
 }
 
-/// The ways of rays beside their segments.
-pub(super) struct WayRows {
+/// What rows of segments have besides: directions as nodes need them.
+pub(super) struct DirectionRows {
     pub inverse: [[f32; ROW]; 3],
     /// Which of the rays go backwards on each axis, as bits.
     pub backwards: [u32; 3],
 }
 
-impl WayRows {
+impl DirectionRows {
     #[inline(always)]
     pub fn of<S: Simd>(s: S, rows: &RayRows<ROW>, segments: &SegmentRows<ROW>) -> Self {
         let mut ways = Self { inverse: [[0.0; ROW]; 3], backwards: [0; 3] };
@@ -56,9 +56,9 @@ impl WayRows {
             for at in (0..ROW).step_by(S::LANES) {
                 // Where a component is too small to tell, the direction's sign is as good as any.
                 let backwards = s.lt(s.load(&rows.direction[axis][at..]), zero);
-                let least = s.select(backwards, s.splat(-LEAST), s.splat(LEAST));
+                let least = s.select(backwards, s.splat(-MIN), s.splat(MIN));
                 let delta = s.load(&segments.delta[axis][at..]);
-                let long = s.le(s.splat(LEAST), s.abs(delta));
+                let long = s.le(s.splat(MIN), s.abs(delta));
                 let delta = s.select(long, delta, least);
                 s.store(s.div(s.splat(1.0), delta), &mut ways.inverse[axis][at..]);
                 ways.backwards[axis] |= s.bits(backwards) << at;
@@ -74,7 +74,7 @@ impl WayRows {
     }
 
     #[inline(always)]
-    pub fn store<S: Simd>(&self, s: S, segments: &SegmentRows<ROW>, to: &mut [Traveller]) {
+    pub fn store<S: Simd>(&self, s: S, segments: &SegmentRows<ROW>, to: &mut [TraversalState]) {
         let limit = s.splat(LIMIT);
         for at in (0..ROW).step_by(S::LANES) {
             let (mut start, mut inverse) = ([limit; 4], [limit; 4]);
@@ -84,7 +84,7 @@ impl WayRows {
             }
             let (start, inverse) = (s.store_quads(start), s.store_quads(inverse));
             for (to, (start, inverse)) in to[at..at + S::LANES].iter_mut().zip(start.iter().zip(&inverse)) {
-                *to = Traveller { start: *start, inverse: *inverse };
+                *to = TraversalState { start: *start, inverse: *inverse };
             }
         }
     }
