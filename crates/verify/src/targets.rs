@@ -120,8 +120,8 @@ pub fn structures(bytes: &[u8]) {
     if let Err(difference) = compare(&scene, &rays, &spec, true_answers) {
         panic!("{difference}\n{scene:?}");
     }
-    // One case in four has its rays spoiled too; some of these meet solids instead.
-    let spoiled = match numbers.below(8) {
+    // One case in 16 has its rays spoiled too; half of these meet solids instead. It takes as long as many others.
+    let spoiled = match numbers.below(32) {
         1 => unusable::any(&mut numbers, &scene, &rays, &spec),
         2 => {
             let mut random = Random::new(numbers.bits().into());
