@@ -39,7 +39,7 @@ impl Built<'_> {
 /// Builds every choice for its workload: in the first pass (when `all` is empty) once watched for memory, then round by
 /// round for time, as many times as are due by the end of that pass.
 ///
-/// None if interrupted.
+/// None if interrupted or out of time: nothing would begin with what was built.
 pub fn build_all<'s>(
     scene: &'s Scene,
     wanted: &[(&Choice, Workload)],
@@ -48,17 +48,17 @@ pub fn build_all<'s>(
     all: &mut Vec<Built<'s>>,
 ) -> Option<()> {
     for (choice, workload) in &wanted[all.len()..] {
-        if deadline.interrupted() {
+        if deadline.is_over() {
             return None;
         }
         all.push(watched(scene, choice, workload, deadline));
-        if deadline.interrupted() {
+        if deadline.is_over() {
             return None;
         }
     }
     for round in 0..options.due(options.build_rounds, pass) {
         for place in 0..wanted.len() {
-            if deadline.interrupted() {
+            if deadline.is_over() {
                 return None;
             }
             let i = (place + round) % wanted.len();
@@ -76,7 +76,7 @@ pub fn build_all<'s>(
             };
             if wants {
                 timed(scene, choice, workload, Clock::of(options.threads), deadline, built);
-                if deadline.interrupted() {
+                if deadline.is_over() {
                     return None;
                 }
             }
@@ -86,8 +86,8 @@ pub fn build_all<'s>(
 }
 
 fn watched<'s>(scene: &'s Scene, choice: &Choice, workload: &Workload, deadline: &Deadline) -> Built<'s> {
-    let interrupted = || deadline.interrupted();
-    let build = || guarded_build_unless(choice, scene, workload, Cancel::when(&interrupted));
+    let over = || deadline.is_over();
+    let build = || guarded_build_unless(choice, scene, workload, Cancel::when(&over));
     let (accel, used) = heap::observe(build);
     let used = used.filter(|_| choice.entry.traits.counted);
     let bytes = accel.as_ref().ok().map(|accel| {
@@ -115,9 +115,9 @@ fn timed<'s>(
     deadline: &Deadline,
     built: &mut Built<'s>,
 ) {
-    let interrupted = || deadline.interrupted();
+    let over = || deadline.is_over();
     let start = clock.now_of_build();
-    let again = guarded_build_unless(choice, scene, workload, Cancel::when(&interrupted));
+    let again = guarded_build_unless(choice, scene, workload, Cancel::when(&over));
     let ns = clock.now_of_build() - start;
     if again.is_ok() {
         built.build_ns.push(ns);

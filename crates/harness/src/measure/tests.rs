@@ -48,6 +48,19 @@ fn cells(choices: &[Choice], options: &Options) -> Vec<Cell> {
 }
 
 #[test]
+fn nothing_is_built_when_time_is_up() {
+    let (scene, _) = testing::cloud(400, 1);
+    let choice = registry::parse("minmax").unwrap();
+    let up = Deadline::new(Arc::default(), Some(Duration::ZERO));
+    for (deadline, builds) in [(up, 0), (Deadline::default(), 1)] {
+        let mut all = Vec::new();
+        let built =
+            build::build_all(&scene, &[(&choice, Workload::GENERAL)], (&quick(), 0), &deadline, &mut all);
+        assert_eq!((built.is_some(), all.len()), (builds > 0, builds));
+    }
+}
+
+#[test]
 fn every_structure_has_a_cell_for_every_ray_set() {
     let ids = ["brute", "minmax", "sphere:kernel=watertight"];
     let choices: Vec<_> = ids.iter().map(|id| registry::parse(id).unwrap()).collect();
