@@ -94,8 +94,8 @@ const FAULTS: [Fault; 12] = [
         target: "structures",
         what: "bmssm-dense: an object is not registered in its last slice",
         file: "crates/bmssm/src/dense/axis.rs",
-        text: "        for slice in slices {\n            self.words",
-        replaced: "        for slice in slices.start..slices.end.max(slices.start + 2) - 1 {\n            self.words",
+        text: ".take(slices.end as usize)",
+        replaced: ".take(slices.end.max(slices.start + 2) as usize - 1)",
     },
     Fault {
         target: "structures",
