@@ -61,7 +61,7 @@ impl Axis {
         assert!((object as usize) < self.objects, "object {object} of {}", self.objects);
         assert!(slices.end as usize <= self.slices, "slice {} of {}", slices.end, self.slices);
         let words = words_of(self.objects);
-        // Not by index: of that loop rustc 1.95 (LLVM 22) makes wrong scatters for AVX-512 where it is inlined.
+        // Not by index: compiled for AVX-512 by rustc 1.95 and inlined, that loop sets wrong bits (docs/reliability.md).
         for slice in self.words.chunks_exact_mut(words).take(slices.end as usize).skip(slices.start as usize)
         {
             slice[object as usize / 64] |= 1 << (object % 64);
