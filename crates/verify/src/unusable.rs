@@ -82,8 +82,7 @@ fn traced<'s>(
 pub fn any(numbers: &mut impl Numbers, scene: &Scene, rays: &[Ray], spec: &str) -> Result<u64, Difference> {
     let spoiled: Vec<Ray> = rays.iter().map(|ray| cases::unusable(numbers, *ray)).collect();
     let asked = hold(scene, &spoiled, spec)?;
-    let reach = cases::Reach { scale: 0, offset: None, origins: 1 };
-    let Some(image) = cases::small_image(numbers, scene, &reach) else { return Ok(asked) };
+    let Some(image) = cases::small_image(numbers, scene, &cases::CLOSE) else { return Ok(asked) };
     let image = cases::unusable_image(numbers, image);
     Ok(asked + hold_image(scene, &image, spec)?)
 }

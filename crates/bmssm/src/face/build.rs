@@ -98,7 +98,7 @@ impl Options {
         workload: Workload,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
         let mesh = MeshRef::new(positions, triangles)?;
-        with_triangles(mesh, self.settings.kernel, self.way(workload))
+        with_triangles(mesh, self.settings.kernel, self.build_for(workload))
     }
 
     fn objects<'s, O: Objects>(
@@ -106,10 +106,10 @@ impl Options {
         objects: &'s O,
         workload: Workload,
     ) -> Result<Box<dyn Accel + 's>, BuildError> {
-        self.way(workload).objects(Guarded::new(objects)?)
+        self.build_for(workload).objects(Guarded::new(objects)?)
     }
 
-    fn way(&self, workload: Workload) -> Build<'static> {
+    fn build_for(&self, workload: Workload) -> Build<'static> {
         Build { settings: self.settings, workload, cancel: Cancel::NEVER }
     }
 }

@@ -37,7 +37,7 @@ use unit_box::UnitBox;
 pub const MAX_EXACT_SPLIT: usize = order::PART;
 
 /// Objects that are split object by object unless told otherwise.
-pub const STRETCH: usize = MAX_EXACT_SPLIT;
+pub const EXACT_SPLIT: usize = MAX_EXACT_SPLIT;
 
 /// Where objects are when rays of any kind are tested with them. Answers are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@ mod unusable;
 
 pub use image::{image, small_image};
 pub use rays::rays;
-pub use reach::{Bounds, Reach, WIDE};
+pub use reach::{Bounds, CLOSE, Reach, WIDE};
 pub use scene::{SHAPES, Shape, closed, scene, scene_of};
 pub use solids::{KINDS, solids};
 pub use structure::structure;

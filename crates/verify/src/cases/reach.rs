@@ -25,6 +25,9 @@ pub struct Bounds {
     pub origins: i32,
 }
 
+/// A scene of size 1 about the origin of coordinates, and rays from near it.
+pub const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
+
 /// What the marathon runs over.
 pub const WIDE: Bounds = Bounds { scale: [-120, 120], offset: 24, origins: 99 };
 

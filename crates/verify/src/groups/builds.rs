@@ -1,8 +1,8 @@
 //! Builds that are cancelled, limited, repeated or done by many threads.
 
-use super::group::{CLOSE, Group};
+use super::group::Group;
 use super::subject::{Subject, Verdict};
-use crate::cases::{self, Shape};
+use crate::cases::{self, CLOSE, Shape};
 use crate::compare::same;
 use accel::{Cancel, Ray, RaySet, Scene, Workload};
 use harness::registry::{Choice, guarded_build, guarded_build_unless};

@@ -1,8 +1,8 @@
 //! Geometry that nobody would draw.
 
-use super::group::{CLOSE, Group};
+use super::group::Group;
 use super::subject::{Subject, Verdict};
-use crate::cases::{self, Reach, Shape};
+use crate::cases::{self, CLOSE, Reach, Shape};
 use accel::{Geometry, InputError, Mesh, MeshRef, Scene, Vec3};
 use primitives::KernelId;
 use scenes::Random;

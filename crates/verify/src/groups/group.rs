@@ -1,10 +1,6 @@
 //! A question of the tree.
 
 use super::subject::{Subject, Verdict};
-use crate::cases::Reach;
-
-/// A scene of size 1 about the origin of coordinates, and rays from near it.
-pub(super) const CLOSE: Reach = Reach { scale: 0, offset: None, origins: 1 };
 
 /// A question.
 #[derive(Clone, Copy)]

@@ -1,8 +1,8 @@
 //! Rays that are none, or come from far away.
 
-use super::group::{CLOSE, Group};
+use super::group::Group;
 use super::subject::{Subject, Verdict};
-use crate::cases::{self, Reach, Shape};
+use crate::cases::{self, CLOSE, Reach, Shape};
 use crate::{patience, unusable};
 use accel::{Builder, Ray, Scene, Vec3, Workload};
 use baselines::Brute;

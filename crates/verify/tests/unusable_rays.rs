@@ -5,8 +5,8 @@ use accel::{Accel, Ray, RaySet, Vec3, Workload};
 use harness::registry;
 use primitives::KernelId;
 use scenes::SceneSpec;
-use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
+use verify::patience;
 
 fn unusable() -> Vec<Ray> {
     let inside = Vec3::splat(0.01);
@@ -30,13 +30,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 
 #[test]
 fn every_walk_ends_and_no_triangle_is_hit() {
-    let (ended, end) = mpsc::channel();
-    let walks = std::thread::spawn(move || {
-        walk();
-        ended.send(()).unwrap();
-    });
-    assert_ne!(end.recv_timeout(PATIENCE), Err(RecvTimeoutError::Timeout), "a walk does not end");
-    walks.join().unwrap();
+    patience::within(PATIENCE, walk).expect("a walk does not end");
 }
 
 fn walk() {
