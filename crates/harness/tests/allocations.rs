@@ -9,6 +9,9 @@ static ALLOCATOR: heap::Counting = heap::Counting;
 /// Above what 300 objects themselves take: what grows with cells, references and slices is larger.
 const LARGE: usize = 1 << 15;
 
+/// Above what a structure itself takes and what one task of rayon's does.
+const SMALL: usize = 1 << 11;
+
 fn scene(triangles: u32) -> Scene {
     let mut random = scenes::Random::new(7);
     let mut point = || Vec3::new(random.unit() as f32, random.unit() as f32, random.unit() as f32);
@@ -27,7 +30,7 @@ fn scene(triangles: u32) -> Scene {
 #[test]
 fn refused_memory_is_an_error_and_nothing_is_kept() {
     heap::start_counting();
-    let (few, many) = (scene(300), scene(12_000));
+    let (few, some, many) = (scene(300), scene(1000), scene(12_000));
     let image = Raster::perspective(&few.view, 64, 64);
     // Kept to the end: threads that end give back what they took.
     let pools = [1, 3].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap());
@@ -42,14 +45,31 @@ fn refused_memory_is_an_error_and_nothing_is_kept() {
         ("bmssm", &many, both, 23),
     ] {
         for pool in &pools {
-            let refused = refuse_each(structure, scene, &workload, pool);
+            let refused = refuse_each(structure, scene, &workload, pool, LARGE);
             assert!(refused >= least, "{structure}: {refused} large allocations");
+        }
+    }
+    // All that grows, in the trees of divided cells too. With a limit, for to ask the system how much there is may fail too.
+    for (structure, scene, least) in [
+        ("ssm:memory=1000000000", &many, 6),
+        ("ssm:resolution=3,divide=1,memory=1000000000", &some, 20),
+        ("ssm-list:memory=1000000000", &many, 3),
+    ] {
+        for pool in &pools {
+            let refused = refuse_each(structure, scene, &Workload::GENERAL, pool, SMALL);
+            assert!(refused >= least, "{structure}: {refused} allocations that are not small");
         }
     }
 }
 
-/// How many allocations there were to be refused.
-fn refuse_each(structure: &str, scene: &Scene, workload: &Workload, pool: &rayon::ThreadPool) -> usize {
+/// How many allocations there were to be refused, about.
+fn refuse_each(
+    structure: &str,
+    scene: &Scene,
+    workload: &Workload,
+    pool: &rayon::ThreadPool,
+    bytes: usize,
+) -> usize {
     let choice = registry::parse(structure).unwrap();
     let build = || guarded_build(&choice, scene, workload).map(drop);
     // What threads allocate once, at their first task, belongs to no build.
@@ -57,7 +77,7 @@ fn refuse_each(structure: &str, scene: &Scene, workload: &Workload, pool: &rayon
     let mut refused = 0;
     loop {
         let ((made, came), used) = heap::observe(|| {
-            heap::refusing(refused, LARGE, || pool.install(build).map_err(|failure| failure.is_too_large()))
+            heap::refusing(refused, bytes, || pool.install(build).map_err(|failure| failure.is_too_large()))
         });
         assert_eq!(made, if came { Err(true) } else { Ok(()) }, "{structure}, allocation {refused}");
         let left = used.expect("counting").left;
@@ -68,7 +88,8 @@ fn refuse_each(structure: &str, scene: &Scene, workload: &Workload, pool: &rayon
             pool.install(|| answers_as_brute_force(&choice, scene, workload));
             return refused;
         }
-        refused += 1;
+        // Each at first; of thousands fewer and fewer.
+        refused += 1 + refused / 32;
     }
 }
 

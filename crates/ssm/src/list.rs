@@ -148,6 +148,7 @@ impl<I: Id> Cells<I> {
         let lists = register(cells, objects.len() as u32, limit, cancel, bytes, |object, found| {
             let bounds = objects.bounds(object);
             let [xs, ys, zs] = [0, 1, 2].map(|axis| grid.slices(axis, &bounds));
+            accel::make_room(ID, found, xs.len().div_ceil(64) * ys.len() * zs.len())?;
             for z in zs {
                 for y in ys.clone() {
                     let row = grid.index([0, y, z]) as u32;
@@ -158,6 +159,7 @@ impl<I: Id> Cells<I> {
                     );
                 }
             }
+            Ok(())
         })?;
         let mut counters = accel::reserved(ID, cells)?;
         counters.extend(lists.offsets.windows(2).map(|ends| I::narrow(ends[1] - ends[0])));

@@ -4,6 +4,7 @@
 use crate::settings::Settings;
 use accel::parallel::prelude::*;
 use accel::{BuildError, Cancel};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// For each cell a list of references, one list behind another.
@@ -103,7 +104,7 @@ pub(crate) fn register(
     limit: Limit,
     cancel: Cancel,
     bytes: impl Fn(u64) -> u128,
-    cells_of: impl Fn(u32, &mut Vec<Word>) + Sync,
+    cells_of: impl Fn(u32, &mut Vec<Word>) -> Result<(), BuildError> + Sync,
 ) -> Result<Lists, BuildError> {
     limit.check(bytes(0))?;
     let alone = accel::parallel::threads() == 1;
@@ -123,17 +124,21 @@ pub(crate) fn register(
     let counted = AtomicU64::new(0);
     let most = u64::from(u32::MAX);
     let each = |with: &(dyn Fn(u32, &[Word]) + Sync)| {
+        let failed = OnceLock::new();
         (0..references.div_ceil(CHUNK)).into_par_iter().for_each_init(Vec::new, |found, chunk| {
             for reference in chunk * CHUNK..references.min((chunk + 1) * CHUNK) {
-                if cancel.is_asked() || counted.load(Relaxed) > most {
+                if cancel.is_asked() || counted.load(Relaxed) > most || failed.get().is_some() {
                     return;
                 }
                 found.clear();
-                cells_of(reference, found);
-                with(reference, found);
+                match cells_of(reference, found) {
+                    Ok(()) => with(reference, found),
+                    // Where another thread failed first, its error is as good.
+                    Err(error) => drop(failed.set(error)),
+                }
             }
         });
-        cancel.check(limit.structure)
+        failed.into_inner().map_or_else(|| cancel.check(limit.structure), Err)
     };
     let offsets: Vec<AtomicU32> = limit.blank(cells + 1, cancel)?;
     each(&|_, found| {
@@ -161,16 +166,20 @@ pub(crate) fn register(
     // These keep their memory.
     let offsets: Vec<u32> = offsets.into_iter().map(AtomicU32::into_inner).collect();
     let mut references: Vec<u32> = lists.into_iter().map(AtomicU32::into_inner).collect();
-    sort_lists(&offsets, &mut references, cancel);
+    sort_lists(&offsets, &mut references, (limit, cancel))?;
     cancel.check(limit.structure)?;
     Ok(Lists { offsets, references })
 }
 
 /// Puts every list in ascending order, so that threads leave no trace.
-fn sort_lists(offsets: &[u32], mut references: &mut [u32], cancel: Cancel) {
+fn sort_lists(
+    offsets: &[u32],
+    mut references: &mut [u32],
+    (limit, cancel): (Limit, Cancel),
+) -> Result<(), BuildError> {
     const CHUNK: usize = 1 << 14;
     let cells = offsets.len() - 1;
-    let mut chunks = Vec::new();
+    let mut chunks = accel::reserved(limit.structure, cells.div_ceil(CHUNK))?;
     for first in (0..cells).step_by(CHUNK) {
         let last = cells.min(first + CHUNK);
         let (own, rest) = references.split_at_mut((offsets[last] - offsets[first]) as usize);
@@ -187,6 +196,7 @@ fn sort_lists(offsets: &[u32], mut references: &mut [u32], cancel: Cancel) {
             }
         }
     });
+    Ok(())
 }
 
 #[cfg(test)]
@@ -203,6 +213,7 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let cells_of = |r: u32, found: &mut Vec<Word>| {
             found.push(words((0..7).filter(|cell| r.is_multiple_of(cell + 2))));
+            Ok(())
         };
         let bytes = |n| 4 * u128::from(n);
         pool.install(|| register(8, 1000, ANY, Cancel::NEVER, bytes, cells_of)).unwrap()
@@ -226,6 +237,7 @@ mod tests {
     fn the_limit_is_held_before_and_after_counting() {
         let all = |_: u32, found: &mut Vec<Word>| {
             found.extend([Word { first: 0, bits: u64::MAX }, Word { first: 64, bits: (1 << 36) - 1 }]);
+            Ok(())
         };
         let bytes = |n: u64| 400 + 4 * u128::from(n);
         let with =
@@ -237,11 +249,24 @@ mod tests {
     }
 
     #[test]
+    fn a_failure_of_one_reference_is_the_failure_of_all() {
+        let error = || BuildError::TooLarge { structure: "test".into(), bytes: 2, limit: 1 };
+        let seen = AtomicU32::new(0);
+        let cells_of = |reference: u32, _: &mut Vec<Word>| {
+            seen.fetch_add(1, Relaxed);
+            if reference == 500 { Err(error()) } else { Ok(()) }
+        };
+        assert_eq!(register(8, 1000, ANY, Cancel::NEVER, |_| 0, cells_of).unwrap_err(), error());
+        assert!(seen.into_inner() <= 1000, "there is no second pass");
+    }
+
+    #[test]
     fn a_cancelled_registration_ends_between_references() {
         let seen = AtomicU32::new(0);
         let enough = || seen.load(Relaxed) >= 5;
         let count = |_: u32, _: &mut Vec<Word>| {
             seen.fetch_add(1, Relaxed);
+            Ok(())
         };
         let ended = register(8, 1000, ANY, Cancel::when(&enough), |_| 0, count).unwrap_err();
         assert_eq!(ended, BuildError::Cancelled { structure: "test".into() });

@@ -4,6 +4,7 @@ use super::bricks::BrickGrid;
 use super::order::GROUP;
 use super::segment::UnitBox;
 use super::{Cells, ID};
+use crate::register::Limit;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
 use accel::{Aabb, Bounds, BuildError};
@@ -19,13 +20,14 @@ const SAMPLE: usize = 1 << 12;
 /// The boxes of the groups of 16 slots; none where a ray that meets a group's cell mostly meets its box.
 ///
 /// # Errors
-/// [`BuildError::TooLarge`] if the system doesn't give the memory.
+/// [`BuildError::TooLarge`] if the limit or the system doesn't give the memory.
 pub(super) fn boxes<B: Bounds>(
     objects: &B,
     grid: &Grid,
     bricks: &BrickGrid,
     cells: &Cells,
     slots: &[u32],
+    limit: Limit,
 ) -> Result<Vec<UnitBox>, BuildError> {
     let of_group = |slots: &[u32]| {
         let held = slots.iter().filter(|object| **object != EMPTY_SLOT);
@@ -35,7 +37,9 @@ pub(super) fn boxes<B: Bounds>(
     if met(grid, bricks, cells, of_number) > WORTHWHILE {
         return Ok(Vec::new());
     }
-    let mut boxes = accel::reserved(ID, slots.len().div_ceil(GROUP))?;
+    let count = slots.len().div_ceil(GROUP);
+    limit.check((count * size_of::<UnitBox>()) as u128)?;
+    let mut boxes = accel::reserved(ID, count)?;
     accel::parallel::extend(&mut boxes, slots.par_chunks(GROUP).with_min_len(1 << 8).map(of_group));
     Ok(boxes)
 }

@@ -2,10 +2,11 @@
 //! walk of a ray through them that steps over empty bricks at once. A cell may be divided again into a
 //! brick of its own.
 
+use super::ID;
 use super::segment::{ClippedSegment, Frame, SegmentRows, UnitBox, greater};
 use crate::register::Word;
 use accel::grid::{Grid, RayRows};
-use accel::{Aabb, Ray};
+use accel::{Aabb, BuildError, Ray};
 use lanes::{ROW, Simd};
 use std::ops::Range;
 
@@ -69,31 +70,41 @@ impl BrickGrid {
         self.bricks.iter().map(|n| u128::from(*n)).product()
     }
 
+    /// Bytes of the bits.
+    pub fn bytes(&self) -> u128 {
+        (size_of_val(&*self.occupied) + size_of_val(&*self.divided)) as u128
+    }
+
     /// The slices of the finest level that a box touches.
     pub fn slices(&self, bounds: &Aabb) -> [Range<u32>; 3] {
         [0, 1, 2].map(|axis| self.finest.slices(axis, bounds))
     }
 
     /// Appends the cells of the grid that any of these slices of the finest level reach, brick by brick.
-    pub fn cells(&self, objects: &[[Range<u32>; 3]], found: &mut Vec<Word>) {
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] if the system doesn't give the memory.
+    pub fn cells(&self, objects: &[[Range<u32>; 3]], found: &mut Vec<Word>) -> Result<(), BuildError> {
         let bricks_of = |of: &[Range<u32>; 3]| of.each_ref().map(|r| at_level(r, self.levels + 1));
         let volume = |of: &[Range<u32>; 3]| of.iter().map(|r| u64::from(r.end - r.start)).product::<u64>();
         let own: u64 = objects.iter().map(|object| volume(&bricks_of(object))).sum();
         let Some(hull) = objects.iter().map(bricks_of).reduce(|a, b| {
             [0, 1, 2].map(|axis| a[axis].start.min(b[axis].start)..a[axis].end.max(b[axis].end))
         }) else {
-            return;
+            return Ok(());
         };
         // All objects brick by brick, unless they lie so far apart that most bricks between hold none of them.
         if volume(&hull) * objects.len() as u64 <= WORTH_SORTING * own {
+            accel::make_room(ID, found, volume(&hull) as usize)?;
             each_place(&hull, |brick| {
                 let bits = objects.iter().fold(0, |bits, object| bits | self.within(object, brick));
                 if bits != 0 {
                     found.push(self.word(brick, bits));
                 }
             });
-            return;
+            return Ok(());
         }
+        accel::make_room(ID, found, own as usize)?;
         for object in objects {
             each_place(&bricks_of(object), |brick| {
                 found.push(self.word(brick, self.within(object, brick)));
@@ -105,6 +116,7 @@ impl BrickGrid {
             kept.bits |= if same { word.bits } else { 0 };
             same
         });
+        Ok(())
     }
 
     /// The cells of a brick of the grid that these slices of the finest level reach.

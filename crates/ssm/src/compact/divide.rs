@@ -4,13 +4,14 @@
 
 use super::bricks::{BRICK, BrickGrid, EDGE, at_level, places};
 use super::order::GROUP;
-use super::{BRICK_BYTES, Cells};
+use super::{BRICK_BYTES, Cells, ID};
 use crate::register::Limit;
 use accel::grid::Grid;
 use accel::parallel::prelude::*;
-use accel::{Bounds, BuildError, Cancel};
+use accel::{Bounds, BuildError, Cancel, append, make_room, reserved};
 use lanes::EMPTY_SLOT;
 use std::ops::Range;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// An object in a cell: its group, and its slices on the finest level.
@@ -35,13 +36,16 @@ struct Allowance<'c> {
     /// Bytes that all trees may take, and those that they take by now.
     bytes: u128,
     taken: AtomicU64,
+    /// Why a tree could not be grown.
+    failed: OnceLock<BuildError>,
     cancel: Cancel<'c>,
 }
 
 impl Allowance<'_> {
     /// Whether it is over: what has been grown is dropped.
     fn is_over(&self) -> bool {
-        u128::from(self.taken.load(Relaxed)) > self.bytes || self.cancel.is_asked()
+        let taken = u128::from(self.taken.load(Relaxed));
+        taken > self.bytes || self.failed.get().is_some() || self.cancel.is_asked()
     }
 
     fn take(&self, bytes: u64) {
@@ -66,35 +70,47 @@ pub(super) fn divide<B: Bounds>(
         return Ok(cells);
     }
     let least = gain.ceil() as u32 + 1;
-    let crowded: Vec<u32> =
-        (0..own as u32).into_par_iter().filter(|cell| cells.length(*cell as usize) >= least).collect();
-    if crowded.is_empty() {
+    let is_crowded = |cell: &u32| cells.length(*cell as usize) >= least;
+    let all = 0..own as u32;
+    let count = all.clone().into_par_iter().map(|cell| usize::from(is_crowded(&cell))).sum();
+    if count == 0 {
         return Ok(cells);
     }
-    let held = limit.less(order.len() as u128 * size_of::<Slices>() as u128)?;
+    let held = limit.less((order.len() * size_of::<Slices>() + count * size_of::<u32>()) as u128)?;
+    let mut crowded = reserved(ID, count)?;
+    crowded.extend(all.filter(is_crowded));
     let slices = Slices::of_all(bricks, objects, order, (limit, cancel))?;
+    crowded.par_iter_mut().for_each(|cell| {
+        let (place, groups) = (bricks.place(*cell), cells.list(*cell as usize));
+        if !cancel.is_asked() && !is_worth(groups, &slices, place, bricks.levels(), gain) {
+            *cell = NONE;
+        }
+    });
+    cancel.check(ID)?;
+    crowded.retain(|cell| *cell != NONE);
+    let held = held.less(crowded.len() as u128 * size_of::<(u32, Tree)>() as u128)?;
+    let mut trees = reserved(ID, crowded.len())?;
+    trees.extend(crowded.into_iter().map(|cell| (cell, Tree::default())));
     // In the end there are the undivided cells, the trees, and both of them joined.
     let undivided = bricks.occupied.len() as u128 * (BRICK_BYTES + 8) + cells.references.len() as u128 * 4;
     let bytes = held.bytes.saturating_sub(2 * undivided) / 2;
-    let allowance = Allowance { bytes, taken: AtomicU64::new(0), cancel };
-    let trees: Vec<(u32, Tree)> = crowded
-        .into_par_iter()
-        .filter_map(|cell| {
-            if allowance.is_over() {
-                return None;
-            }
-            let (place, groups) = (bricks.place(cell), cells.list(cell as usize));
-            if !is_worth(groups, &slices, place, bricks.levels(), gain) {
-                return None;
-            }
-            let members = members(groups, &slices, place, bricks.levels());
-            let members: Vec<&Member> = members.iter().collect();
-            let mut tree = Tree::default();
-            let grown = tree.grow(&members, place, bricks.levels(), gain, &allowance);
-            grown.then(|| (cell, tree.trimmed()))
-        })
-        .collect();
-    cancel.check(limit.structure)?;
+    let allowance = Allowance { bytes, taken: AtomicU64::new(0), failed: OnceLock::new(), cancel };
+    trees.par_iter_mut().for_each(|(cell, tree)| {
+        if allowance.is_over() {
+            return;
+        }
+        let (place, groups) = (bricks.place(*cell), cells.list(*cell as usize));
+        match Tree::of_cell(groups, &slices, place, bricks.levels(), gain, &allowance) {
+            Ok(grown) => *tree = grown,
+            // Where another thread failed first, its error is as good.
+            Err(error) => drop(allowance.failed.set(error)),
+        }
+    });
+    trees.retain(|(_, tree)| !tree.occupied.is_empty());
+    cancel.check(ID)?;
+    if let Some(error) = allowance.failed.into_inner() {
+        return Err(error);
+    }
     let taken = u128::from(allowance.taken.into_inner());
     if taken > 0 {
         held.check(2 * (undivided + taken))?;
@@ -107,8 +123,11 @@ pub(super) fn divide<B: Bounds>(
     // Positions have 32 bits.
     let numbered = Limit { bytes: limit.bytes.min(u128::from(u32::MAX) * 4), ..limit };
     numbered.check(references * 4)?;
-    join(&cells, bricks, trees, (limit, cancel))
+    join(&cells, bricks, trees, cancel)
 }
+
+/// In the place of a cell that is not to be divided; there are fewer cells.
+const NONE: u32 = u32::MAX;
 
 /// Where an object lies, in slices of the finest level, of which there are no more than 16 bits number; nowhere in an empty slot.
 #[derive(Clone, Copy, Default)]
@@ -169,20 +188,46 @@ fn is_worth(groups: &[u32], slices: &[Slices], place: [u32; 3], levels: u32, gai
 }
 
 /// The objects of these groups that touch the cell at `place`; of a group's objects in the same slices one is enough.
-fn members(groups: &[u32], slices: &[Slices], place: [u32; 3], levels: u32) -> Vec<Member> {
-    let all = groups.iter().flat_map(|group| slices[slots(*group)].iter().map(|slices| (*group, slices)));
-    let touching = all.filter(|(_, slices)| slices.places(place, levels - 1) != 0);
-    let mut members: Vec<Member> =
-        touching.map(|(group, slices)| Member { group, slices: slices.ranges() }).collect();
-    members.dedup();
-    members
+fn members(
+    groups: &[u32],
+    slices: &[Slices],
+    place: [u32; 3],
+    levels: u32,
+) -> Result<Vec<Member>, BuildError> {
+    let mut members = Vec::new();
+    for group in groups {
+        for slices in slices[slots(*group)].iter().filter(|slices| slices.places(place, levels - 1) != 0) {
+            let member = Member { group: *group, slices: slices.ranges() };
+            if members.last() != Some(&member) {
+                append(ID, &mut members, member)?;
+            }
+        }
+    }
+    Ok(members)
 }
 
 /// Bytes of a brick in a tree.
 const TREE_BRICK: u64 = 4 * BRICK as u64 + 16;
 
 impl Tree {
-    /// Adds a brick for the cell at `place`, `levels` above the finest, if that pays and is allowed.
+    /// The tree of a cell that holds these groups; without a brick where dividing does not pay or is not allowed.
+    fn of_cell(
+        groups: &[u32],
+        slices: &[Slices],
+        place: [u32; 3],
+        levels: u32,
+        gain: f32,
+        allowance: &Allowance,
+    ) -> Result<Self, BuildError> {
+        let members = members(groups, slices, place, levels)?;
+        let mut all = reserved(ID, members.len())?;
+        all.extend(&members);
+        let mut tree = Self::default();
+        tree.grow(&all, place, levels, gain, allowance)?;
+        Ok(tree.trimmed())
+    }
+
+    /// Adds a brick for the cell at `place`, `levels` above the finest, if that pays and is allowed; says whether it did.
     fn grow(
         &mut self,
         members: &[&Member],
@@ -190,22 +235,25 @@ impl Tree {
         levels: u32,
         gain: f32,
         allowance: &Allowance,
-    ) -> bool {
-        let masks: Vec<u64> = members
-            .iter()
-            .map(|member| places(&member.slices.each_ref().map(|r| at_level(r, levels - 1)), place))
-            .collect();
-        let groups = by_group(members, &masks);
+    ) -> Result<bool, BuildError> {
+        let mut masks = reserved(ID, members.len())?;
+        masks.extend(
+            members
+                .iter()
+                .map(|member| places(&member.slices.each_ref().map(|r| at_level(r, levels - 1)), place)),
+        );
+        let groups = by_group(members, &masks)?;
         if spared(&groups) < gain || allowance.is_over() {
-            return false;
+            return Ok(false);
         }
         allowance.take(TREE_BRICK);
         // Fewer rays come by a smaller cell, and some corners are crowded at any size.
         let gain = 2.0 * gain;
         let brick = self.occupied.len();
-        self.occupied.push(groups.iter().fold(0, |all, (_, cells)| all | cells));
-        self.divided.push(0);
+        append(ID, &mut self.occupied, groups.iter().fold(0, |all, (_, cells)| all | cells))?;
+        append(ID, &mut self.divided, 0)?;
         let first = self.lengths.len();
+        make_room(ID, &mut self.lengths, BRICK)?;
         self.lengths.resize(first + BRICK, 0);
         // The children's trees are kept back: all lists of a brick come before those of the next.
         let mut own = Vec::new();
@@ -213,31 +261,36 @@ impl Tree {
         for within in (0..BRICK).filter(|within| self.occupied[brick] >> within & 1 != 0) {
             let here = |cells: u64| cells >> within & 1 != 0;
             let start = own.len();
-            own.extend(groups.iter().filter(|(_, cells)| here(*cells)).map(|(group, _)| *group));
+            for (group, _) in groups.iter().filter(|(_, cells)| here(*cells)) {
+                append(ID, &mut own, *group)?;
+            }
             let mut child = Self::default();
             // No more tests can be spared than there are.
             if levels > 1 && (own.len() - start) as f32 >= gain {
-                let list: Vec<&Member> =
-                    members.iter().zip(&masks).filter(|(_, cells)| here(**cells)).map(|(m, _)| *m).collect();
+                let mut list = Vec::new();
+                for (member, _) in members.iter().zip(&masks).filter(|(_, cells)| here(**cells)) {
+                    append(ID, &mut list, *member)?;
+                }
                 let at = [within as u32 % EDGE, within as u32 / EDGE % EDGE, within as u32 / (EDGE * EDGE)];
                 let at = [0, 1, 2].map(|a| place[a] * EDGE + at[a]);
-                if child.grow(&list, at, levels - 1, gain, allowance) {
+                if child.grow(&list, at, levels - 1, gain, allowance)? {
                     self.divided[brick] |= 1 << within;
                     own.truncate(start);
-                    later.push((start, child));
-                    own.push(0);
+                    append(ID, &mut later, (start, child))?;
+                    append(ID, &mut own, 0)?;
                 }
             }
             self.lengths[first + within] = (own.len() - start) as u32;
         }
         allowance.take(4 * own.len() as u64);
         let start = self.references.len();
+        make_room(ID, &mut self.references, own.len())?;
         self.references.append(&mut own);
         for (place, child) in later {
             self.references[start + place] = self.occupied.len() as u32;
-            self.append(child);
+            self.append(child)?;
         }
-        true
+        Ok(true)
     }
 
     /// Without room for more.
@@ -250,13 +303,18 @@ impl Tree {
     }
 
     /// Puts another tree's bricks behind this one's.
-    fn append(&mut self, mut other: Self) {
+    fn append(&mut self, mut other: Self) -> Result<(), BuildError> {
         let moved = self.occupied.len() as u32;
         other.renumber(moved);
+        make_room(ID, &mut self.occupied, other.occupied.len())?;
+        make_room(ID, &mut self.divided, other.divided.len())?;
+        make_room(ID, &mut self.lengths, other.lengths.len())?;
+        make_room(ID, &mut self.references, other.references.len())?;
         self.occupied.append(&mut other.occupied);
         self.divided.append(&mut other.divided);
         self.lengths.append(&mut other.lengths);
         self.references.append(&mut other.references);
+        Ok(())
     }
 
     /// Counts bricks from `moved` on.
@@ -272,15 +330,15 @@ impl Tree {
 }
 
 /// Each group with the smaller cells that any of its members reaches.
-fn by_group(members: &[&Member], masks: &[u64]) -> Vec<(u32, u64)> {
+fn by_group(members: &[&Member], masks: &[u64]) -> Result<Vec<(u32, u64)>, BuildError> {
     let mut groups: Vec<(u32, u64)> = Vec::new();
     for (member, cells) in members.iter().zip(masks) {
         match groups.last_mut() {
             Some((group, all)) if *group == member.group => *all |= cells,
-            _ => groups.push((member.group, *cells)),
+            _ => append(ID, &mut groups, (member.group, *cells))?,
         }
     }
-    groups
+    Ok(groups)
 }
 
 /// How many tests of groups a ray through the cell is spared by the smaller cells: a group that lies
@@ -294,19 +352,18 @@ fn join(
     cells: &Cells,
     bricks: &mut BrickGrid,
     trees: Vec<(u32, Tree)>,
-    (limit, cancel): (Limit, Cancel),
+    cancel: Cancel,
 ) -> Result<Cells, BuildError> {
     let own_bricks = bricks.occupied.len();
     let within: usize = trees.iter().map(|(_, tree)| tree.occupied.len()).sum();
     let references: usize = trees.iter().map(|(_, tree)| tree.references.len()).sum();
     let kept: usize = cells.references.len()
         - trees.iter().map(|(cell, _)| cells.length(*cell as usize) as usize - 1).sum::<usize>();
-    let id = limit.structure;
     let (mut occupied, mut divided) =
-        (accel::reserved(id, own_bricks + within)?, accel::reserved(id, own_bricks + within)?);
+        (reserved(ID, own_bricks + within)?, reserved(ID, own_bricks + within)?);
     let mut joined = Cells {
-        positions: accel::reserved(id, (own_bricks + within) * BRICK + 1)?,
-        references: accel::reserved(id, kept + references)?,
+        positions: reserved(ID, (own_bricks + within) * BRICK + 1)?,
+        references: reserved(ID, kept + references)?,
     };
     occupied.extend_from_slice(&bricks.occupied);
     divided.resize(own_bricks, 0u64);
@@ -315,7 +372,7 @@ fn join(
     let mut first_brick = own_bricks as u32;
     for cell in 0..cells.positions.len() - 1 {
         if cell % SOME == 0 {
-            cancel.check(id)?;
+            cancel.check(ID)?;
         }
         joined.positions.push(joined.references.len() as u32);
         match coming {

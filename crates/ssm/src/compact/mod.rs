@@ -117,6 +117,10 @@ impl Cells {
     fn length(&self, cell: usize) -> u32 {
         self.positions[cell + 1] - self.positions[cell]
     }
+
+    fn bytes(&self) -> u128 {
+        (vec_bytes(&self.positions) + vec_bytes(&self.references)) as u128
+    }
 }
 
 struct Built<O: PackedObjects> {
@@ -164,14 +168,13 @@ impl Laid {
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, others)?;
         let mut bricks = BrickGrid::new(&grid, ssm.divide.map_or(0, |_| u32::MAX));
         let copy = copy(slots.len());
-        let bytes_of_boxes = slots.len() / GROUP * size_of::<UnitBox>();
-        let limit = Limit::of(ID, settings).less(copy + (slots.len() * 4 + bytes_of_boxes) as u128)?;
+        let limit = Limit::of(ID, settings).less(copy + slots.len() as u128 * 4)?;
         let count = limit.cells(bricks.count() * BRICK as u128, BRICK_BYTES / BRICK as u128)? / BRICK;
         let groups = (slots.len() / GROUP) as u32;
         let bytes = |references: u64| count as u128 * BRICK_BYTES + 4 * u128::from(references);
         let lists = register(count * BRICK, groups, limit, cancel, bytes, |group, found| {
             if apart && group == 0 {
-                return;
+                return Ok(());
             }
             let first = group as usize * GROUP;
             let held = slots[first..first + GROUP].iter().filter(|object| **object != EMPTY_SLOT);
@@ -181,7 +184,7 @@ impl Laid {
                 *slices = bricks.slices(&objects.bounds(*object));
                 len += 1;
             }
-            bricks.cells(&slices[..len], found);
+            bricks.cells(&slices[..len], found)
         })?;
         let mut cells = Cells { positions: lists.offsets, references: lists.references };
         let mut occupied: Vec<u64> = limit.blank(count, cancel)?;
@@ -193,7 +196,8 @@ impl Laid {
         if let Some(gain) = ssm.divide {
             cells = divide::divide(cells, &mut bricks, objects, &slots, gain, (limit, cancel))?;
         }
-        let boxes = boxes::boxes(objects, &grid, &bricks, &cells, &slots)?;
+        let left = limit.less(cells.bytes() + bricks.bytes())?;
+        let boxes = boxes::boxes(objects, &grid, &bricks, &cells, &slots, left)?;
         Ok(Self { grid, bricks, cells, boxes, slots, apart })
     }
 }

@@ -33,24 +33,69 @@ pub(super) fn order<B: Bounds>(objects: &B) -> Result<Order, BuildError> {
         (0..3).map(|a| f64::from(bounds.max[a]) - f64::from(bounds.min[a])).fold(0.0, f64::max)
     };
     let least = LARGE * size(&all);
-    let ids = (0..objects.len() as u32).into_par_iter().with_min_len(1 << 12);
-    let mut large: Vec<(f64, u32)> =
-        ids.map(|id| (size(&objects.bounds(id)), id)).filter(|(size, _)| *size > least).collect();
-    large.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    large.truncate(GROUP);
-    let mut large: Vec<u32> = large.into_iter().map(|(_, id)| id).collect();
-    large.sort_unstable();
+    let tasks = objects.len().div_ceil(TASK);
+    let of_task = |task: usize| {
+        let mut largest = Largest::NONE;
+        for id in task * TASK..objects.len().min((task + 1) * TASK) {
+            let size = size(&objects.bounds(id as u32));
+            if size > least {
+                largest.add((size, id as u32));
+            }
+        }
+        largest
+    };
+    let largest = (0..tasks).into_par_iter().map(of_task).reduce(|| Largest::NONE, Largest::with);
+    let mut ids = [0; GROUP];
+    let large = largest.ids(&mut ids);
     let bounds = crate::resolution::bounds(objects, |id| large.binary_search(&id).is_err());
     let apart = large.len().next_multiple_of(GROUP);
     let others = objects.len() - large.len();
     let len = apart + others.next_multiple_of(GROUP);
     let mut slots = accel::reserved(ID, len)?;
-    slots.extend_from_slice(&large);
+    slots.extend_from_slice(large);
     slots.resize(apart, EMPTY_SLOT);
     let keyed = morton(objects, &bounds, |id| large.binary_search(&id).is_err())?;
     slots.extend(keyed[..others].iter().map(|(_, id)| *id));
     slots.resize(len, EMPTY_SLOT);
     Ok(Order { slots, apart: !large.is_empty(), bounds })
+}
+
+/// Objects looked at by one task.
+const TASK: usize = 1 << 12;
+
+/// The largest of the objects seen, a group at most; of equal ones the first. In one place, so that it takes no memory that may fail.
+#[derive(Clone, Copy)]
+struct Largest {
+    /// Sizes and numbers, the largest first.
+    held: [(f64, u32); GROUP],
+    len: usize,
+}
+
+impl Largest {
+    const NONE: Self = Self { held: [(0.0, 0); GROUP], len: 0 };
+
+    fn add(&mut self, (size, id): (f64, u32)) {
+        let goes_before = |held: &(f64, u32)| held.0.total_cmp(&size).reverse().then(held.1.cmp(&id)).is_lt();
+        let place = self.held[..self.len].partition_point(goes_before);
+        if place < GROUP {
+            self.len = GROUP.min(self.len + 1);
+            self.held[place..self.len].rotate_right(1);
+            self.held[place] = (size, id);
+        }
+    }
+
+    fn with(mut self, other: Self) -> Self {
+        other.held[..other.len].iter().for_each(|held| self.add(*held));
+        self
+    }
+
+    /// The numbers in order.
+    fn ids(self, all: &mut [u32; GROUP]) -> &[u32] {
+        *all = self.held.map(|(_, id)| id);
+        let ids = &mut all[..self.len];
+        ids.sort_unstable();
+        ids
+    }
 }
 
 /// Objects along a Morton curve through the centres of their boxes, so that the objects of a group are
@@ -99,6 +144,31 @@ mod tests {
     use super::*;
     use accel::Vec3;
     use primitives::Boxes;
+
+    #[test]
+    fn the_largest_are_those_that_sorting_puts_first() {
+        let sizes: Vec<(f64, u32)> = (0..100).map(|id| (f64::from(id * 37 % 23), id)).collect();
+        let mut sorted = sizes.clone();
+        sorted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        for parts in [1, 7, 50] {
+            for count in [0, 5, GROUP, 100] {
+                let largest = sizes[..count].chunks(parts).map(|part| {
+                    let mut largest = Largest::NONE;
+                    part.iter().for_each(|held| largest.add(*held));
+                    largest
+                });
+                let all = largest.fold(Largest::NONE, Largest::with);
+                let mut expected: Vec<_> = sorted
+                    .iter()
+                    .filter(|held| (held.1 as usize) < count)
+                    .take(GROUP)
+                    .map(|held| held.1)
+                    .collect();
+                expected.sort_unstable();
+                assert_eq!(all.ids(&mut [0; GROUP]), expected);
+            }
+        }
+    }
 
     #[test]
     fn bits_are_spread() {

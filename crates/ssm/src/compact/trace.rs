@@ -96,19 +96,31 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool> Visit
     }
 }
 
-/// Rays traced with one instruction set, for the nearest hit or any, with boxes of groups or without.
-struct Batch<'a, O: PackedObjects, C, const ANY: bool, const BOXED: bool> {
+/// Rays traced with one instruction set, for the nearest hit or any.
+struct Batch<'a, O: PackedObjects, C, const ANY: bool> {
     built: &'a Built<O>,
     rays: &'a [Ray],
     found: &'a mut [Nearest],
     count: &'a mut C,
 }
 
-impl<O: PackedObjects, C: Count, const ANY: bool, const BOXED: bool> Task for Batch<'_, O, C, ANY, BOXED> {
+impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> {
     type Out = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
+        if self.built.boxes.is_empty() {
+            self.trace::<S, false>(simd);
+        } else {
+            self.trace::<S, true>(simd);
+        }
+    }
+}
+
+impl<O: PackedObjects, C: Count, const ANY: bool> Batch<'_, O, C, ANY> {
+    /// With the boxes of groups or without.
+    #[inline(always)]
+    fn trace<S: Simd, const BOXED: bool>(self, simd: S) {
         let Self { built, rays, found, count } = self;
         let Built { bricks, cells, boxes, blocks, .. } = built;
         for (rays, found) in rays.chunks(ROW).zip(found.chunks_mut(ROW)) {
@@ -146,12 +158,7 @@ impl<O: PackedObjects, C: Count, const ANY: bool, const BOXED: bool> Task for Ba
 
 impl<O: PackedObjects> Built<O> {
     fn batch<const ANY: bool>(&self, rays: &[Ray], found: &mut [Nearest]) {
-        let (simd, count) = (self.settings.simd, &mut NoCount);
-        if self.boxes.is_empty() {
-            simd.run(Batch::<_, _, ANY, false> { built: self, rays, found, count });
-        } else {
-            simd.run(Batch::<_, _, ANY, true> { built: self, rays, found, count });
-        }
+        self.settings.simd.run(Batch::<_, _, ANY> { built: self, rays, found, count: &mut NoCount });
     }
 
     /// One ray.
@@ -212,12 +219,7 @@ impl<O: PackedObjects> Built<O> {
             let mut found = [Nearest::new(0.0); BATCH];
             let found = &mut found[..own.len()];
             // The same steps at every level: one is enough.
-            let count = &mut counters;
-            if self.boxes.is_empty() {
-                Batch::<_, _, ANY, false> { built: self, rays: own, found, count }.run(Portable);
-            } else {
-                Batch::<_, _, ANY, true> { built: self, rays: own, found, count }.run(Portable);
-            }
+            Batch::<_, _, ANY> { built: self, rays: own, found, count: &mut counters }.run(Portable);
         }
         counters
     }
