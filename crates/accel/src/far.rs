@@ -43,34 +43,9 @@ impl Line {
         Self::unmoved(corners, origin, direction).unwrap_or_else(|| Self::moved(corners, origin, direction))
     }
 
-    /// What `part` makes of [`Line::through`]: compiled twice, so that nearly all lines, whose origin stays where it is, add
-    /// nothing to each t.
-    #[inline(always)]
-    pub fn clipped<T>(
-        corners: [Vec3; 2],
-        origin: Vec3,
-        direction: Vec3,
-        part: impl Fn(&Self) -> Option<T>,
-    ) -> Option<T> {
-        #[cold]
-        #[inline(never)]
-        fn moved<T>(
-            corners: [Vec3; 2],
-            origin: Vec3,
-            direction: Vec3,
-            part: impl Fn(&Line) -> Option<T>,
-        ) -> Option<T> {
-            part(&Line::moved(corners, origin, direction))
-        }
-        match Self::unmoved(corners, origin, direction) {
-            Some(line) => part(&line),
-            None => moved(corners, origin, direction, part),
-        }
-    }
-
     /// [`Line::through`] with the origin where it is, or `None` where it has to be moved.
     #[inline(always)]
-    fn unmoved(corners: [Vec3; 2], origin: Vec3, direction: Vec3) -> Option<Self> {
+    pub fn unmoved(corners: [Vec3; 2], origin: Vec3, direction: Vec3) -> Option<Self> {
         let at = origin.to_array().map(f64::from);
         let (near, far) = range(corners, at, direction);
         (!is_brief(near, far, BRIEFLY)).then_some(Self { origin: at, moved: 0.0, near, far, length: 0.0 })

@@ -102,8 +102,23 @@ impl Grid {
     /// The part of the ray inside the grid and its own range of t, or `None` where there is none.
     #[inline(always)]
     pub fn clip(&self, ray: &Ray) -> Option<Segment> {
-        let corners = [self.bounds.min, self.bounds.max];
-        Line::clipped(corners, ray.origin, ray.direction, |line| self.clip_line(ray, line))
+        match Line::unmoved(self.corners(), ray.origin, ray.direction) {
+            Some(line) => self.clip_line(ray, &line),
+            None => self.clip_moved(ray),
+        }
+    }
+
+    /// [`Grid::clip`] of a ray from far away. Compiled apart, so that nearly all rays, whose origin stays where it is, add
+    /// nothing to each t.
+    #[cold]
+    #[inline(never)]
+    fn clip_moved(&self, ray: &Ray) -> Option<Segment> {
+        self.clip_line(ray, &Line::moved(self.corners(), ray.origin, ray.direction))
+    }
+
+    #[inline(always)]
+    const fn corners(&self) -> [Vec3; 2] {
+        [self.bounds.min, self.bounds.max]
     }
 
     #[inline(always)]

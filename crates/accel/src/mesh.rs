@@ -55,7 +55,9 @@ impl MeshRef<'_> {
     /// If there is no such triangle, or it names no position.
     #[inline(always)]
     pub fn corners(&self, index: usize) -> Corners {
-        self.triangles[index].map(|corner| self.positions[corner as usize])
+        // One by one: an array that is mapped goes through memory.
+        let [a, b, c] = self.triangles[index];
+        [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
     /// The box of all triangles; positions that no triangle uses don't count.

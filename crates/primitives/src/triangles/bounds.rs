@@ -15,7 +15,8 @@ impl<S: Storage> TriangleBounds<'_, S> {
     /// The corners of a triangle, where kernels see them.
     #[inline(always)]
     pub(super) fn corners(&self, id: u32) -> Corners {
-        self.mesh.corners(id as usize).map(|corner| self.storage.place(corner))
+        let [a, b, c] = self.mesh.corners(id as usize);
+        [self.storage.place(a), self.storage.place(b), self.storage.place(c)]
     }
 }
 
