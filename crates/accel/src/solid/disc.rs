@@ -1,7 +1,7 @@
 //! Flat discs.
 
 use super::error::Fields;
-use super::{Shape, SolidError, outward, placed, reach, scaled, unit};
+use super::{Shape, SolidError, around_disc, placed, scaled, unit};
 use crate::{Aabb, Vec3};
 use glam::DVec3;
 
@@ -20,9 +20,7 @@ impl Shape for Disc {
     const KIND: &'static str = "disc";
 
     fn bounds(&self) -> Aabb {
-        let center = self.center.as_dvec3();
-        let around = reach(unit(self.normal).unwrap_or(DVec3::Z)) * f64::from(self.radius);
-        outward(center - around, center + around)
+        around_disc(self.center, self.normal, self.radius, 0.0)
     }
 
     fn normal(&self, _: DVec3) -> Option<DVec3> {

@@ -90,23 +90,24 @@ pub trait Shape {
     fn validate(&self) -> Result<(), SolidError>;
 }
 
-/// What is done with a [`Solid`], whichever kind it is.
+/// What is done with a [`Solid`], whichever kind it is; `as make` names what makes a solid of one of its kind.
 #[macro_export]
 macro_rules! of_solid {
     ($solid:expr, $shape:ident => $does:expr) => {
+        $crate::of_solid!($solid, $shape as _ => $does)
+    };
+    ($solid:expr, $shape:ident as $make:pat_param => $does:expr) => {
+        $crate::of_solid!(
+            $solid, $shape as $make => $does;
+            Triangle Box Sphere Cone Disc Quadric Torus Implicit Patch Facets Csg Group
+        )
+    };
+    ($solid:expr, $shape:ident as $make:pat_param => $does:expr; $($kind:ident)*) => {
         match $solid {
-            $crate::Solid::Triangle($shape) => $does,
-            $crate::Solid::Box($shape) => $does,
-            $crate::Solid::Sphere($shape) => $does,
-            $crate::Solid::Cone($shape) => $does,
-            $crate::Solid::Disc($shape) => $does,
-            $crate::Solid::Quadric($shape) => $does,
-            $crate::Solid::Torus($shape) => $does,
-            $crate::Solid::Implicit($shape) => $does,
-            $crate::Solid::Patch($shape) => $does,
-            $crate::Solid::Facets($shape) => $does,
-            $crate::Solid::Csg($shape) => $does,
-            $crate::Solid::Group($shape) => $does,
+            $($crate::Solid::$kind($shape) => {
+                let $make = $crate::Solid::$kind;
+                $does
+            })*
         }
     };
 }
@@ -133,20 +134,7 @@ impl Solid {
     /// [`Shape::moved`]
     #[must_use]
     pub fn moved(&self, scale: f64, offset: DVec3) -> Self {
-        match self {
-            Self::Triangle(shape) => Self::Triangle(shape.moved(scale, offset)),
-            Self::Box(shape) => Self::Box(shape.moved(scale, offset)),
-            Self::Sphere(shape) => Self::Sphere(shape.moved(scale, offset)),
-            Self::Cone(shape) => Self::Cone(shape.moved(scale, offset)),
-            Self::Disc(shape) => Self::Disc(shape.moved(scale, offset)),
-            Self::Quadric(shape) => Self::Quadric(shape.moved(scale, offset)),
-            Self::Torus(shape) => Self::Torus(shape.moved(scale, offset)),
-            Self::Implicit(shape) => Self::Implicit(shape.moved(scale, offset)),
-            Self::Patch(shape) => Self::Patch(shape.moved(scale, offset)),
-            Self::Facets(shape) => Self::Facets(shape.moved(scale, offset)),
-            Self::Csg(shape) => Self::Csg(shape.moved(scale, offset)),
-            Self::Group(shape) => Self::Group(shape.moved(scale, offset)),
-        }
+        of_solid!(self, shape as make => make(shape.moved(scale, offset)))
     }
 
     /// [`Shape::numbers`]
@@ -175,6 +163,13 @@ fn scaled(length: f32, scale: f64) -> f32 {
 /// The box between two points in `f64`, rounded outward.
 fn outward(min: DVec3, max: DVec3) -> Aabb {
     Aabb { min: min.as_vec3(), max: max.as_vec3() }.padded(0.0)
+}
+
+/// The box of a disc, widened on every side.
+fn around_disc(center: Vec3, normal: Vec3, radius: f32, margin: f32) -> Aabb {
+    let center = center.as_dvec3();
+    let around = reach(unit(normal).unwrap_or(DVec3::Z)) * f64::from(radius) + f64::from(margin);
+    outward(center - around, center + around)
 }
 
 /// How far a disc of radius 1 with this unit normal reaches along each axis.

@@ -1,7 +1,7 @@
 //! Rings.
 
 use super::error::Fields;
-use super::{Shape, SolidError, outward, placed, reach, scaled, unit};
+use super::{Shape, SolidError, around_disc, placed, scaled, unit};
 use crate::{Aabb, Vec3};
 use glam::DVec3;
 
@@ -22,10 +22,7 @@ impl Shape for Torus {
     const KIND: &'static str = "torus";
 
     fn bounds(&self) -> Aabb {
-        let center = self.center.as_dvec3();
-        let around = reach(unit(self.axis).unwrap_or(DVec3::Z)) * f64::from(self.major);
-        let around = around + f64::from(self.minor);
-        outward(center - around, center + around)
+        around_disc(self.center, self.axis, self.major, self.minor)
     }
 
     fn normal(&self, point: DVec3) -> Option<DVec3> {

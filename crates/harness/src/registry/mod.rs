@@ -40,7 +40,7 @@ pub struct Entry {
     pub settings: &'static [Setting],
     /// How it takes part in a comparison.
     pub traits: Traits,
-    /// Settings worth checking besides the default ones, as `name=value,…`.
+    /// Settings worth checking besides the default ones and those of [`Traits::any_kernel`], as `name=value,…`.
     pub variants: &'static [&'static str],
     /// Settings that may suit a user better than the default ones, likewise.
     pub trials: &'static [&'static str],
@@ -68,6 +68,16 @@ impl Entry {
             make,
             absent: None,
         }
+    }
+
+    /// The settings that checks try: the default ones, the variants, and other kernels where it suits any.
+    pub fn tried(&self) -> impl Iterator<Item = &'static str> {
+        let kernels: &[_] = if self.traits.any_kernel {
+            &["kernel=watertight", "kernel=quantised", "kernel=box"]
+        } else {
+            &[]
+        };
+        std::iter::once("").chain(self.variants.iter().copied()).chain(kernels.iter().copied())
     }
 }
 
@@ -241,12 +251,11 @@ pub fn with_kernels(kernels: impl IntoIterator<Item = KernelId> + Clone) -> Vec<
     each.map(|(id, kernel)| StructureSpec::plain(id).with("kernel", kernel.id())).collect()
 }
 
-/// The structures that pass `takes`, each by its defaults and by its variants.
+/// The structures that pass `takes`, each by all settings that checks try.
 pub fn with_variants(takes: impl Fn(&Entry) -> bool) -> Vec<StructureSpec> {
     let entries = entries().iter().filter(|entry| takes(entry));
-    let texts = entries.flat_map(|entry| {
-        std::iter::once(&"").chain(entry.variants).map(move |settings| format!("{}:{settings}", entry.id))
-    });
+    let texts =
+        entries.flat_map(|entry| entry.tried().map(move |settings| format!("{}:{settings}", entry.id)));
     texts.map(|text| text.parse().expect("variants are settings")).collect()
 }
 
@@ -257,7 +266,7 @@ mod tests {
     #[test]
     fn every_structure_is_made_by_its_id_and_by_its_variants() {
         for entry in entries() {
-            for settings in std::iter::once(&"").chain(entry.variants) {
+            for settings in entry.tried() {
                 let text = format!("{}:{settings}", entry.id);
                 let choice = parse(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
                 assert_eq!(choice.builder.id(), entry.id);

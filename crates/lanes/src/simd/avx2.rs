@@ -7,21 +7,14 @@ use std::arch::x86_64::*;
 #[derive(Clone, Copy, Debug)]
 pub struct Avx2(());
 
-/// Whether this machine has all that is enabled below. Virtual machines may hide some of it, and LZCNT, hidden, counts wrongly instead of failing.
-pub(super) fn present() -> bool {
-    is_x86_feature_detected!("avx2")
-        && is_x86_feature_detected!("bmi1")
-        && is_x86_feature_detected!("bmi2")
-        && is_x86_feature_detected!("lzcnt")
-        && is_x86_feature_detected!("popcnt")
-}
-
-entered!(Avx2, "avx2,bmi1,bmi2,lzcnt,popcnt");
+// Virtual machines may hide some of it, and LZCNT, hidden, counts wrongly instead of failing.
+entered!(Avx2, "avx2" "bmi1" "bmi2" "lzcnt" "popcnt");
 
 impl Simd for Avx2 {
     registers! {
         8 of __m256, __m256, __m256i;
         splat _mm256_set1_ps; load _mm256_loadu_ps; store _mm256_storeu_ps;
+        integers load _mm256_loadu_si256; store _mm256_storeu_si256;
         roots _mm256_sqrt_ps;
         floats add = _mm256_add_ps, sub = _mm256_sub_ps, mul = _mm256_mul_ps, div = _mm256_div_ps, min = _mm256_min_ps, max = _mm256_max_ps;
         comparisons lt = _mm256_cmp_ps::<_CMP_LT_OQ>, le = _mm256_cmp_ps::<_CMP_LE_OQ>, eq = _mm256_cmp_ps::<_CMP_EQ_OQ>;
@@ -70,21 +63,9 @@ impl Simd for Avx2 {
         })
     }
     #[inline(always)]
-    fn load_u(self, from: &[u32]) -> Self::U {
-        let from = &from[..8];
-        // SAFETY: the token proves the feature; the slice has 8 integers.
-        unsafe { _mm256_loadu_si256(from.as_ptr().cast()) }
-    }
-    #[inline(always)]
     fn load_short(self, from: &[u16]) -> Self::F {
         let from = &from[..8];
         // SAFETY: the token proves the feature; the slice has 8 short integers.
         unsafe { _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(from.as_ptr().cast()))) }
-    }
-    #[inline(always)]
-    fn store_u(self, v: Self::U, to: &mut [u32]) {
-        let to = &mut to[..8];
-        // SAFETY: the token proves the feature; the slice has 8 integers.
-        unsafe { _mm256_storeu_si256(to.as_mut_ptr().cast(), v) }
     }
 }

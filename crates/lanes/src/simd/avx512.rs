@@ -9,22 +9,16 @@ use std::arch::x86_64::*;
 #[derive(Clone, Copy, Debug)]
 pub struct Avx512(());
 
-/// Whether this machine has all that is enabled below.
-pub(super) fn present() -> bool {
-    super::avx2::present()
-        && is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512bw")
-        && is_x86_feature_detected!("avx512dq")
-        && is_x86_feature_detected!("avx512vl")
-        && is_x86_feature_detected!("avx512vbmi2")
-}
-
-entered!(Avx512, "avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi2,avx2,bmi1,bmi2,lzcnt,popcnt");
+entered!(
+    Avx512,
+    "avx512f" "avx512bw" "avx512dq" "avx512vl" "avx512vbmi2" "avx2" "bmi1" "bmi2" "lzcnt" "popcnt"
+);
 
 impl Simd for Avx512 {
     registers! {
         16 of __m512, __mmask16, __m512i;
         splat _mm512_set1_ps; load _mm512_loadu_ps; store _mm512_storeu_ps;
+        integers load _mm512_loadu_epi32; store _mm512_storeu_epi32;
         roots _mm512_sqrt_ps;
         floats add = _mm512_add_ps, sub = _mm512_sub_ps, mul = _mm512_mul_ps, div = _mm512_div_ps, min = _mm512_min_ps, max = _mm512_max_ps;
         comparisons lt = _mm512_cmp_ps_mask::<_CMP_LT_OQ>, le = _mm512_cmp_ps_mask::<_CMP_LE_OQ>, eq = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
@@ -65,22 +59,10 @@ impl Simd for Avx512 {
         intrinsic!(_mm512_cmplt_epu32_mask(a, b))
     }
     #[inline(always)]
-    fn load_u(self, from: &[u32]) -> Self::U {
-        let from = &from[..16];
-        // SAFETY: the token proves the features; the slice has 16 integers.
-        unsafe { _mm512_loadu_epi32(from.as_ptr().cast()) }
-    }
-    #[inline(always)]
     fn load_short(self, from: &[u16]) -> Self::F {
         let from = &from[..16];
         // SAFETY: the token proves the features; the slice has 16 short integers.
         unsafe { _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256(from.as_ptr().cast()))) }
-    }
-    #[inline(always)]
-    fn store_u(self, v: Self::U, to: &mut [u32]) {
-        let to = &mut to[..16];
-        // SAFETY: the token proves the features; the slice has 16 integers.
-        unsafe { _mm512_storeu_epi32(to.as_mut_ptr().cast(), v) }
     }
 
     #[inline(always)]

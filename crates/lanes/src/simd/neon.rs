@@ -18,6 +18,7 @@ impl Simd for Neon {
     registers! {
         4 of float32x4_t, uint32x4_t, uint32x4_t;
         splat vdupq_n_f32; load vld1q_f32; store vst1q_f32;
+        integers load vld1q_u32; store vst1q_u32;
         roots vsqrtq_f32;
         floats add = vaddq_f32, sub = vsubq_f32, mul = vmulq_f32, div = vdivq_f32, min = vminq_f32, max = vmaxq_f32;
         comparisons lt = vcltq_f32, le = vcleq_f32, eq = vceqq_f32;
@@ -58,21 +59,9 @@ impl Simd for Neon {
         intrinsic!(vcltq_u32(a, b))
     }
     #[inline(always)]
-    fn load_u(self, from: &[u32]) -> Self::U {
-        let from = &from[..4];
-        // SAFETY: NEON is always present; the slice has 4 integers.
-        unsafe { vld1q_u32(from.as_ptr()) }
-    }
-    #[inline(always)]
     fn load_short(self, from: &[u16]) -> Self::F {
         let from = &from[..4];
         // SAFETY: NEON is always present; the slice has 4 short integers.
         unsafe { vcvtq_f32_u32(vmovl_u16(vld1_u16(from.as_ptr()))) }
-    }
-    #[inline(always)]
-    fn store_u(self, v: Self::U, to: &mut [u32]) {
-        let to = &mut to[..4];
-        // SAFETY: NEON is always present; the slice has 4 integers.
-        unsafe { vst1q_u32(to.as_mut_ptr(), v) }
     }
 }

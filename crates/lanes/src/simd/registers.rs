@@ -12,9 +12,15 @@ macro_rules! intrinsic {
 }
 pub(super) use intrinsic;
 
-/// The function that enters an instruction set from a type that proves its presence, and what it enables.
+/// The function that enters an instruction set from a type that proves its presence, by the features it consists of: those
+/// that are detected are those that are enabled.
 macro_rules! entered {
-    ($token:ident, $features:literal) => {
+    ($token:ident, $($feature:tt)*) => {
+        /// Whether this machine has all that is enabled.
+        pub(super) fn present() -> bool {
+            $(is_x86_feature_detected!($feature))&&*
+        }
+
         /// Runs `task` with these instructions.
         ///
         /// The caller has checked that the level is available.
@@ -27,7 +33,7 @@ macro_rules! entered {
             #[inline(always)]
             fn enter<T: Task>(self, task: T) -> T::Out {
                 #[inline(never)]
-                #[target_feature(enable = $features)]
+                $(#[target_feature(enable = $feature)])*
                 fn inner<T: Task>(task: T) -> T::Out {
                     task.run($token(()))
                 }
@@ -45,6 +51,7 @@ macro_rules! registers {
     (
         $lanes:literal of $f:ty, $m:ty, $u:ty;
         splat $splat:path; load $load:path; store $store:path;
+        integers load $load_integers:path; store $store_integers:path;
         roots $root:path;
         floats $($float:ident = $of_floats:path),*;
         comparisons $($compare:ident = $of_both:path),*;
@@ -70,6 +77,18 @@ macro_rules! registers {
             let to = &mut to[..$lanes];
             // SAFETY: the token exists only where the instruction set was detected; the slice has as many floats.
             unsafe { $store(to.as_mut_ptr(), v) }
+        }
+        #[inline(always)]
+        fn load_u(self, from: &[u32]) -> Self::U {
+            let from = &from[..$lanes];
+            // SAFETY: the token exists only where the instruction set was detected; the slice has as many integers.
+            unsafe { $load_integers(from.as_ptr().cast()) }
+        }
+        #[inline(always)]
+        fn store_u(self, v: Self::U, to: &mut [u32]) {
+            let to = &mut to[..$lanes];
+            // SAFETY: the token exists only where the instruction set was detected; the slice has as many integers.
+            unsafe { $store_integers(to.as_mut_ptr().cast(), v) }
         }
         #[inline(always)]
         fn sqrt(self, a: Self::F) -> Self::F {

@@ -289,20 +289,9 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
         }
         let deferred = defer(s, slot, s.and(bounds.certain, rays.near), bounds, best);
         let undecided = s.bits(bounds.undecided) & !s.bits(deferred);
-        if undecided != 0 {
-            self.decide(s, slot, rays, undecided, best);
+        if undecided == 0 {
+            return;
         }
-    }
-
-    #[inline(always)]
-    fn decide<S: Simd>(
-        &self,
-        s: S,
-        slot: usize,
-        rays: &Rays<K, S>,
-        undecided: u32,
-        best: &mut NearestPacket<S>,
-    ) {
         let lanes = K::decide(s, &rays.prepared, self.packed(slot), undecided, best.t);
         let hits = s.bits(lanes.hit);
         if hits != 0 {

@@ -86,14 +86,7 @@ pub const ENTRIES: &[Entry] = &[
         source: "after Skala 1993",
         settings: &bmssm::suite::fast::Settings::NAMES,
         traits: Traits { by_workload: true, any_kernel: true, ..Traits::BUILT_IN },
-        variants: &[
-            "exact_split=256",
-            "simd=portable",
-            "kernel=watertight",
-            "tile=2,depth_bits=0,large=1",
-            "kernel=quantised",
-            "kernel=box",
-        ],
+        variants: &["exact_split=256", "simd=portable", "tile=2,depth_bits=0,large=1"],
         make: set!(Bmssm),
         ..BUILT_IN
     },
@@ -128,9 +121,6 @@ pub const ENTRIES: &[Entry] = &[
             "density=40",
             "divide=off",
             "density=0.05,divide=0.5",
-            "kernel=watertight",
-            "kernel=quantised",
-            "kernel=box",
         ],
         make: set!(Ssm),
         ..BUILT_IN
