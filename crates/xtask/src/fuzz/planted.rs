@@ -106,10 +106,10 @@ const FAULTS: [Fault; 12] = [
     },
     Fault {
         target: "structures",
-        what: "bmssm: of the levels' boxes one that a ray only touches is passed by",
+        what: "bmssm: the walk ends at the first block with a hit, wherever that lies",
         file: "crates/bmssm/src/general/trace.rs",
-        text: "met |= s.bits(s.le(enter, exit)) << at;",
-        replaced: "met |= s.bits(s.lt(enter, exit)) << at;",
+        text: "limit = segment.limit(best.t);",
+        replaced: "limit = 0.0;",
     },
 ];
 
