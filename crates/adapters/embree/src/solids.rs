@@ -154,7 +154,8 @@ impl<'s> Attached<'s> {
 
 /// Fills buffers of Embree's own with objects of a kind that it has.
 fn fill<'a>(geometry: RTCGeometry, kind: Kind, objects: impl Iterator<Item = &'a Solid>) {
-    let (mut points, mut normals): (Vec<[f32; 4]>, Vec<[f32; 3]>) = (Vec::new(), Vec::new());
+    // Normals take 16 bytes each, for Embree reads as many, and makes no room behind the last as it does behind corners.
+    let (mut points, mut normals): (Vec<[f32; 4]>, Vec<[f32; 4]>) = (Vec::new(), Vec::new());
     let with = |p: Vec3, radius: f32| [p.x, p.y, p.z, radius];
     for solid in objects {
         match solid {
@@ -162,7 +163,7 @@ fn fill<'a>(geometry: RTCGeometry, kind: Kind, objects: impl Iterator<Item = &'a
             Solid::Sphere(sphere) => points.push(with(sphere.center, sphere.radius)),
             Solid::Disc(disc) => {
                 points.push(with(disc.center, disc.radius));
-                normals.push(disc.normal.to_array());
+                normals.push(with(disc.normal, 0.0));
             }
             Solid::Cone(cone) => {
                 points.extend([with(cone.base, cone.base_radius), with(cone.top, cone.top_radius)]);
