@@ -1,8 +1,10 @@
 //! Corners of 16 bits a coordinate.
 
-use super::{Immediate, Kernel, KernelId, MollerTrumbore, Packed, Preparation, Prepared, QuantisationGrid};
-use accel::{Common, Ray};
-use lanes::packet::{Lanes, Packet};
+use super::{
+    Immediate, Kernel, KernelId, Many, MollerTrumbore, Packed, Preparation, Prepared, QuantisationGrid,
+};
+use accel::Common;
+use lanes::packet::Lanes;
 use lanes::{Row, Simd};
 
 /// [`MollerTrumbore`] on corners that are rounded to a grid of 2^16 places an axis over the whole scene, and kept so: half the
@@ -17,15 +19,15 @@ impl Kernel for Quantised {
     type Preparation = Self;
     type Search = Immediate;
     type Storage = QuantisationGrid;
-    type One = Ray;
+    type One = <Test as Kernel>::One;
 
     #[inline(always)]
-    fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {
+    fn triangles<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {
         Test::triangles(s, ray, packed, wanted, t_max)
     }
 
     #[inline(always)]
-    fn rays<S: Simd>(s: S, rays: &Packet<S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
+    fn rays<S: Simd>(s: S, rays: &Many<Self, S>, packed: Packed<'_>, t_max: S::F) -> Lanes<S> {
         Test::rays(s, rays, packed, t_max)
     }
 }
@@ -39,7 +41,7 @@ impl Preparation<Self> for Quantised {
     }
 
     #[inline(always)]
-    fn rays_prepared<S: Simd>(s: S, rays: &Packet<S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S> {
+    fn rays_prepared<S: Simd>(s: S, rays: &Many<Self, S>, prepared: Prepared<'_>, t_max: S::F) -> Lanes<S> {
         Test::rays_prepared(s, rays, prepared, t_max)
     }
 }
