@@ -20,20 +20,19 @@ impl<O: PackedObjects> General<O> {
     pub(super) fn drain_beams<S: Simd, const ANY: bool>(
         &self,
         s: S,
-        octant: usize,
+        negative: &[bool; 3],
         ready: &Ready,
         top: u32,
         scratch: &mut Scratch,
     ) {
         let Scratch { beams, beam_rays, lists, stack, spans, best, masks, steps, .. } = scratch;
-        let negative = [octant & 1 != 0, octant & 2 != 0, octant & 4 != 0];
         let (first, len) = (ready.first_beam, ready.beams);
         stack.push(Waiting { what: 0, first, len, top });
         while let Some(at) = stack.pop() {
             if at.what & Node::BLOCK == 0 {
                 steps.cells += u64::from(at.len);
                 let node = &self.nodes[at.what as usize];
-                s.apart(Visit { node, negative: &negative, at, ways: beams, lists, stack });
+                s.apart(Visit::<_, false> { node, negative, at, ways: beams, lists, stack });
                 self.prefetch_next(stack);
             } else {
                 steps.blocks += u64::from(at.len);

@@ -9,8 +9,6 @@ use lanes::{BLOCK, ROW, Simd, Task};
 /// The candidates of up to `LANES` rays in a block, R & S & T along the path of each.
 pub(super) struct Along<'a> {
     pub maps: &'a BlockMaps,
-    /// Which coordinates of the rays' directions are negative.
-    pub negative: &'a [bool; 3],
     pub states: &'a [TraversalState],
     /// The rays, by number.
     pub ids: &'a [u16],
@@ -23,12 +21,12 @@ impl Task for Along<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> [u64; ROW] {
-        let Self { maps, negative, states, ids, mut pairs } = self;
+        let Self { maps, states, ids, mut pairs } = self;
         let mut chosen = [&states[usize::from(ids[0]) % states.len()]; ROW];
         for (chosen, id) in chosen.iter_mut().zip(ids) {
             *chosen = &states[usize::from(*id)];
         }
-        let paths = Paths::of(s, maps, negative, &chosen, ids.len());
+        let paths = Paths::of(s, maps, &chosen, ids.len());
         let mut masks = [0; ROW];
         let mut met = paths.met;
         while met != 0 {
@@ -58,13 +56,7 @@ struct Paths {
 
 impl Paths {
     #[inline(always)]
-    fn of<S: Simd>(
-        s: S,
-        maps: &BlockMaps,
-        negative: &[bool; 3],
-        chosen: &[&TraversalState; ROW],
-        len: usize,
-    ) -> Self {
+    fn of<S: Simd>(s: S, maps: &BlockMaps, chosen: &[&TraversalState; ROW], len: usize) -> Self {
         let mut quads = [&chosen[0].start; ROW];
         for (quad, chosen) in quads.iter_mut().zip(chosen) {
             *quad = &chosen.start;
@@ -83,7 +75,8 @@ impl Paths {
             from[axis] = s.mul(s.sub(start[axis], s.splat(maps.origin[axis])), density);
             let per_slice = s.mul(inverse[axis], s.splat(1.0 / maps.density[axis]));
             way[axis] = s.div(s.splat(1.0), per_slice);
-            let (near, far) = if negative[axis] { (last, zero) } else { (zero, last) };
+            let backwards = s.lt(inverse[axis], zero);
+            let (near, far) = (s.select(backwards, last, zero), s.select(backwards, zero, last));
             enter = s.max(enter, s.mul(s.sub(near, from[axis]), per_slice));
             exit = s.min(exit, s.mul(s.sub(far, from[axis]), per_slice));
         }
@@ -100,7 +93,11 @@ impl Paths {
         let mut chosen = [zero; 6];
         for axis in 0..3 {
             let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
-            let begin = if negative[axis] { &to } else { &from };
+            let backwards = s.lt(inverse[axis], zero);
+            let mut begin = from;
+            for (begin, to) in begin.iter_mut().zip(to) {
+                *begin = s.select(backwards, to, *begin);
+            }
             let nonzero = s.lt(zero, size[axis]);
             let per_slice = s.select(nonzero, s.div(s.splat(1.0), way[axis]), zero);
             let here = [

@@ -6,7 +6,7 @@
 
 use super::General;
 use super::paths::Along;
-use super::ready::{Begin, Begun};
+use super::ready::{Begin, Begun, MIXED};
 use super::scratch::{STREAM, Scratch, Waiting};
 use super::state::TraversalState;
 use super::test::{ResolveEach, TestOne, TestPairs};
@@ -44,15 +44,19 @@ impl<O: PackedObjects> General<O> {
         if !pairs {
             ones.extend(rays.iter().map(|ray| self.objects.one(ray)));
         }
-        let Begun { octants, top } =
-            s.apart(Begin { frame: &self.frame, spread: self.spread, rays, scratch: &mut *scratch });
-        for (octant, ready) in octants.iter().enumerate() {
+        // Among so many blocks lists by octant would be short.
+        let mixed = self.maps.len() >= MANY_BLOCKS;
+        let Begun { ready, top } =
+            s.apart(Begin { frame: &self.frame, spread: self.spread, mixed, rays, scratch: &mut *scratch });
+        for (group, ready) in ready.iter().enumerate() {
+            let negative = [group & 1 != 0, group & 2 != 0, group & 4 != 0];
             if ready.len > 0 {
                 scratch.stack.push(Waiting { what: 0, first: ready.first, len: ready.len, top });
-                self.drain::<S, ANY>(s, octant, rays, &ones, scratch);
+                let negative = (group != MIXED).then_some(&negative);
+                self.drain::<S, ANY>(s, negative, rays, &ones, scratch);
             }
             if ready.beams > 0 {
-                self.drain_beams::<S, ANY>(s, octant, ready, top, scratch);
+                self.drain_beams::<S, ANY>(s, &negative, ready, top, scratch);
             }
         }
         if pairs {
@@ -65,28 +69,33 @@ impl<O: PackedObjects> General<O> {
         }
     }
 
-    /// Takes rays of one octant through all that they meet.
+    /// Takes rays of one group through all that they meet. `negative` tells which coordinates of their directions are negative,
+    /// unless they are mixed.
     #[inline(always)]
     fn drain<S: Simd, const ANY: bool>(
         &self,
         s: S,
-        octant: usize,
+        negative: Option<&[bool; 3]>,
         rays: &[Ray],
         ones: &[One<O>],
         scratch: &mut Scratch,
     ) {
-        let negative = [octant & 1 != 0, octant & 2 != 0, octant & 4 != 0];
         while let Some(at) = scratch.stack.pop() {
             if at.what & Node::BLOCK == 0 {
                 let Scratch { states, lists, stack, steps, .. } = &mut *scratch;
                 steps.cells += u64::from(at.len);
                 let node = &self.nodes[at.what as usize];
-                s.apart(Visit { node, negative: &negative, at, ways: states, lists, stack });
+                let (ways, here) = (&*states, negative.unwrap_or(&[false; 3]));
+                if negative.is_none() {
+                    s.apart(Visit::<_, true> { node, negative: here, at, ways, lists, stack });
+                } else {
+                    s.apart(Visit::<_, false> { node, negative: here, at, ways, lists, stack });
+                }
                 self.prefetch_next(stack);
             } else {
                 scratch.steps.blocks += u64::from(at.len);
                 self.objects.prefetch((at.what & !Node::BLOCK) as usize);
-                self.block::<S, ANY>(s, &negative, at, rays, ones, scratch);
+                self.block::<S, ANY>(s, at, rays, ones, scratch);
             }
         }
     }
@@ -108,7 +117,6 @@ impl<O: PackedObjects> General<O> {
     fn block<S: Simd, const ANY: bool>(
         &self,
         s: S,
-        negative: &[bool; 3],
         at: Waiting,
         rays: &[Ray],
         ones: &[One<O>],
@@ -122,7 +130,7 @@ impl<O: PackedObjects> General<O> {
             let (mut limits, mut changed) = ([TraversalState::DONE; ROW], 0u32);
             if O::Blocks::takes_pairs::<S>() {
                 pairs.len = 0;
-                s.apart(Along { maps, negative, states, ids, pairs: Some(&mut *pairs) });
+                s.apart(Along { maps, states, ids, pairs: Some(&mut *pairs) });
                 steps.candidates += pairs.len as u64;
                 steps.tests += pairs.len as u64;
                 if pairs.len == 0 {
@@ -139,7 +147,7 @@ impl<O: PackedObjects> General<O> {
                     }
                 }
             } else {
-                let masks = s.apart(Along { maps, negative, states, ids, pairs: None });
+                let masks = s.apart(Along { maps, states, ids, pairs: None });
                 for (lane, (candidates, id)) in masks.into_iter().zip(ids).enumerate() {
                     if candidates == 0 {
                         continue;

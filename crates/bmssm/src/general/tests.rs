@@ -150,6 +150,19 @@ fn nothing_is_lost_in_scenes_of_several_levels() {
 }
 
 #[test]
+fn nothing_is_lost_where_rays_of_all_directions_share_lists() {
+    let scene = scene(triangles(8, 140_000, 1.0, Vec3::ZERO));
+    let rays = rays(8, 400, 1.0, Vec3::ZERO);
+    let brute = Brute::new(KernelId::MollerTrumbore).build(&scene, &Workload::GENERAL).unwrap();
+    let mut reference = vec![None; rays.len()];
+    brute.trace(&RaySet::List(rays.clone()), &mut reference);
+    for simd in Level::here() {
+        let differences = Differences(&rays, &reference, simd, MAX_EXACT_SPLIT);
+        assert_eq!(primitives::with_objects(&scene, KernelId::MollerTrumbore, differences), 0, "{simd:?}");
+    }
+}
+
+#[test]
 fn nothing_is_lost_at_any_scale_and_offset() {
     for (scale, offset) in [
         (2f32.powi(-60), Vec3::ZERO),

@@ -5,10 +5,10 @@ use super::state::NodeView;
 use super::tree::{Node, WIDTH};
 use lanes::{Lists, ROW, SHARE, Simd, Task};
 
-/// Sorts the rays to the children that they meet, and puts these on the stack, the one that they enter first on top.
-pub(super) struct Visit<'a, W> {
+/// Sorts the rays to the children that they meet, and puts these on the stack, the one that they enter first on top; `MIXED` rays differ in octant.
+pub(super) struct Visit<'a, W, const MIXED: bool> {
     pub node: &'a Node,
-    /// Which coordinates of the rays' directions are negative.
+    /// Which coordinates of the rays' directions are negative, unless they are mixed.
     pub negative: &'a [bool; 3],
     pub at: Waiting,
     pub ways: &'a [W],
@@ -16,7 +16,7 @@ pub(super) struct Visit<'a, W> {
     pub stack: &'a mut Vec<Waiting>,
 }
 
-impl<W: NodeView> Task for Visit<'_, W> {
+impl<W: NodeView, const MIXED: bool> Task for Visit<'_, W, MIXED> {
     type Out = ();
 
     #[inline(always)]
@@ -26,7 +26,7 @@ impl<W: NodeView> Task for Visit<'_, W> {
         let stride = len.next_multiple_of(SHARE) + SHARE;
         let end = top + WIDTH * stride;
         if lists.len() < end {
-            lists.resize(2 * end, 0);
+            lists.resize(end + end / 4, 0);
         }
         let (before, after) = lists.split_at_mut(top);
         let mut lens = [0; WIDTH];
@@ -36,11 +36,11 @@ impl<W: NodeView> Task for Visit<'_, W> {
             ids[..list.len()].copy_from_slice(list);
             for lane in (0..WIDTH).step_by(S::LANES) {
                 let side = |axis: usize, far: bool| if negative[axis] == far { axis } else { axis + 3 };
-                let mut near = [s.splat(0.0); 3];
-                let mut far = near;
+                let mut nearer = [s.splat(0.0); 3];
+                let mut farther = nearer;
                 for axis in 0..3 {
-                    near[axis] = s.load(&node.boxes[side(axis, false)].0[lane..]);
-                    far[axis] = s.load(&node.boxes[side(axis, true)].0[lane..]);
+                    nearer[axis] = s.load(&node.boxes[side(axis, false)].0[lane..]);
+                    farther[axis] = s.load(&node.boxes[side(axis, true)].0[lane..]);
                 }
                 let mut sum = s.load(&sums[lane..]);
                 for (id, marks) in list.iter().zip(&mut marks) {
@@ -49,10 +49,18 @@ impl<W: NodeView> Task for Visit<'_, W> {
                     let mut enter = s.splat(0.0);
                     let mut exit = s.splat(first.start[3]);
                     for axis in 0..3 {
+                        let (near, far) = if MIXED {
+                            // Looked up by sign rather than branched on: which way a ray goes can't be foreseen.
+                            let sides = [&node.boxes[axis], &node.boxes[axis + 3]];
+                            let backwards = usize::from(first.inverse[axis].is_sign_negative());
+                            (s.load(&sides[backwards].0[lane..]), s.load(&sides[1 - backwards].0[lane..]))
+                        } else {
+                            (nearer[axis], farther[axis])
+                        };
                         let (start, inverse) = (s.splat(first.start[axis]), s.splat(first.inverse[axis]));
-                        enter = s.max(enter, s.mul(s.sub(near[axis], start), inverse));
+                        enter = s.max(enter, s.mul(s.sub(near, start), inverse));
                         let (start, inverse) = (s.splat(last.start[axis]), s.splat(last.inverse[axis]));
-                        exit = s.min(exit, s.mul(s.sub(far[axis], start), inverse));
+                        exit = s.min(exit, s.mul(s.sub(far, start), inverse));
                     }
                     let met = s.le(enter, exit);
                     *marks |= (s.bits(met) << lane) as u16;
