@@ -53,6 +53,16 @@ impl Task for Begin<'_> {
             let rows = rows(s, rays);
             let segments = frame.clip_rows(&rows);
             let ways = DirectionRows::of(s, &rows, &segments);
+            let mut inside = 0;
+            for at in (0..ROW).step_by(S::LANES) {
+                let mut here = s.mask(u32::MAX);
+                for axis in 0..3 {
+                    let origin = s.load(&rows.origin[axis][at..]);
+                    let below = s.le(origin, s.splat(max[axis]));
+                    here = s.and(here, s.and(below, s.le(s.splat(min[axis]), origin)));
+                }
+                inside |= s.bits(here) << at;
+            }
             let mut on = 0;
             for lane in 0..rays.len() {
                 // Those that miss the scene are in no list.
@@ -71,9 +81,8 @@ impl Task for Begin<'_> {
                 on = 0;
             }
             let half = first % SHARE;
-            for (lane, ray) in rays.iter().enumerate() {
-                let within = mixed && ray.origin.clamp(min, max) == ray.origin;
-                let group = if within { MIXED as u32 } else { ways.octant(lane) };
+            for lane in 0..rays.len() {
+                let group = if mixed && inside >> lane & 1 != 0 { MIXED as u32 } else { ways.octant(lane) };
                 ids[half + lane] = (first + lane) as u16;
                 marks[half + lane] = (on >> lane & 1) as u16 * (1 << group);
             }
