@@ -80,9 +80,12 @@ impl Task for Begin<'_> {
                 beam_rays.push(BeamRays::new(rows, on));
                 on = 0;
             }
+            // Neighbours of one octant, such as shadow rays, have a list that fills without others.
+            let mixed = mixed && !ways.agree(on);
             let half = first % SHARE;
             for lane in 0..rays.len() {
-                let group = if mixed && inside >> lane & 1 != 0 { MIXED as u32 } else { ways.octant(lane) };
+                let mixed = mixed && inside >> lane & 1 != 0;
+                let group = if mixed { MIXED as u32 } else { ways.octant(lane) };
                 ids[half + lane] = (first + lane) as u16;
                 marks[half + lane] = (on >> lane & 1) as u16 * (1 << group);
             }

@@ -67,6 +67,12 @@ impl DirectionRows {
         ways
     }
 
+    /// Whether the rays `on` are of one octant.
+    #[inline(always)]
+    pub fn agree(&self, on: u32) -> bool {
+        self.backwards.iter().all(|backwards| backwards & on == 0 || backwards & on == on)
+    }
+
     #[inline(always)]
     pub fn octant(&self, lane: usize) -> u32 {
         let [x, y, z] = self.backwards;

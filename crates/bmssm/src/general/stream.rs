@@ -21,6 +21,10 @@ const SHORT_STREAM: usize = 1 << 14;
 /// From this many blocks on streams are long: in short ones too few rays would reach each block.
 const MANY_BLOCKS: usize = 1 << 11;
 
+/// From this many blocks on, rays that begin within the scene in many directions are listed together: over fewer, lists by octant
+/// fill as well, and visits that know their octant are shorter.
+const MIXED_BLOCKS: usize = 1200;
+
 /// So many objects in one block are tested with every ray, sooner than rays are prepared for anything else.
 const FEW: usize = 8;
 
@@ -45,7 +49,7 @@ impl<O: PackedObjects> General<O> {
             ones.extend(rays.iter().map(|ray| self.objects.one(ray)));
         }
         // Among so many blocks lists by octant would be short.
-        let mixed = self.maps.len() >= MANY_BLOCKS;
+        let mixed = self.maps.len() >= MIXED_BLOCKS;
         let Begun { ready, top } =
             s.apart(Begin { frame: &self.frame, spread: self.spread, mixed, rays, scratch: &mut *scratch });
         for (group, ready) in ready.iter().enumerate() {
