@@ -117,18 +117,11 @@ impl Beam {
         first: u32,
         spread: f32,
     ) -> Option<Self> {
-        if on == 0 {
+        if on == 0 || !ways.agree(on) {
             return None;
         }
         let lane = on.trailing_zeros() as usize % ROW;
-        let mut octant = 0;
-        for (axis, backwards) in ways.backwards.iter().enumerate() {
-            let here = backwards & on;
-            if here != 0 && here != on {
-                return None;
-            }
-            octant |= usize::from(here != 0) << axis;
-        }
+        let octant = ways.octant(lane) as usize;
         let (mut start, mut delta, mut size) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for axis in 0..3 {
             (start[axis], delta[axis]) = (segments.start[axis][lane], segments.delta[axis][lane]);

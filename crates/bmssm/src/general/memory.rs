@@ -4,6 +4,7 @@ use super::item::Item;
 use super::maps::BlockMaps;
 use super::order;
 use super::tree::Node;
+use crate::id::UNCOUNTED;
 use lanes::BLOCK;
 
 /// The most bytes at any moment of building maps over so many objects, built by so many threads, whose geometry takes `copy` bytes for a number of slots.
@@ -27,14 +28,11 @@ pub fn bytes(objects: usize, threads: usize, copy: impl Fn(usize) -> u128) -> u1
     let maps = blocks * size_of::<BlockMaps>() + nodes;
     let packing = (maps + slots * size_of::<u32>()) as u128 + copy;
     let peak = [sorting, copying, clustering, cutting, growing].into_iter().max().unwrap_or_default();
-    packing.max(peak as u128) + FEW
+    packing.max(peak as u128) + UNCOUNTED
 }
 
 /// Blocks to a node, about, where there are many; nodes of few blocks have as few as two.
 const NODE_BLOCKS: usize = 4;
-
-/// What rayon takes for tasks, and what is counted in no phase.
-const FEW: u128 = 8 << 10;
 
 /// Parts are halves of what was too much for one, though not the smallest halves.
 fn max_parts(objects: usize) -> usize {

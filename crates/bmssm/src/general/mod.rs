@@ -33,11 +33,8 @@ use trace::Stack;
 use tree::Node;
 use unit_box::UnitBox;
 
-/// Most objects that are split object by object.
+/// Most objects that are split object by object, and how many unless told otherwise.
 pub const MAX_EXACT_SPLIT: usize = order::PART;
-
-/// Objects that are split object by object unless told otherwise.
-pub const EXACT_SPLIT: usize = MAX_EXACT_SPLIT;
 
 /// Where objects are when rays of any kind are tested with them. Answers are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -84,8 +84,7 @@ impl Task for Begin<'_> {
             let mixed = mixed && !ways.agree(on);
             let half = first % SHARE;
             for lane in 0..rays.len() {
-                let mixed = mixed && inside >> lane & 1 != 0;
-                let group = if mixed { MIXED as u32 } else { ways.octant(lane) };
+                let group = if mixed && inside >> lane & 1 != 0 { MIXED as u32 } else { ways.octant(lane) };
                 ids[half + lane] = (first + lane) as u16;
                 marks[half + lane] = (on >> lane & 1) as u16 * (1 << group);
             }

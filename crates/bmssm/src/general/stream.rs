@@ -48,7 +48,6 @@ impl<O: PackedObjects> General<O> {
         if !pairs {
             ones.extend(rays.iter().map(|ray| self.objects.one(ray)));
         }
-        // Among so many blocks lists by octant would be short.
         let mixed = self.maps.len() >= MIXED_BLOCKS;
         let Begun { ready, top } =
             s.apart(Begin { frame: &self.frame, spread: self.spread, mixed, rays, scratch: &mut *scratch });

@@ -3,7 +3,7 @@
 use super::maps::Block;
 use super::order::Shown;
 use super::{Settings, THICKNESS};
-use crate::id::ID;
+use crate::id::{ID, UNCOUNTED};
 use accel::{BuildError, Raster};
 use lanes::BLOCK;
 
@@ -33,9 +33,6 @@ impl Bytes {
         Err(BuildError::TooLarge { structure: ID.into(), bytes, limit: allowed.peak })
     }
 }
-
-/// What rayon takes for tasks, and what is counted in no phase.
-const FEW: u128 = 8 << 10;
 
 /// What maps are made for.
 #[derive(Clone, Copy)]
@@ -79,6 +76,6 @@ impl Image<'_> {
         let registering = seen + (keys + 2 * ids) as u128 + 4 * headers + 2 * words;
         let held = headers + words + tiles + copy;
         let packing = held + ids as u128;
-        Bytes { held, peak: joining.max(sorting).max(registering).max(packing) + FEW }
+        Bytes { held, peak: joining.max(sorting).max(registering).max(packing) + UNCOUNTED }
     }
 }
