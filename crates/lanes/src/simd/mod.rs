@@ -25,8 +25,10 @@ mod scalar;
 pub use portable::Portable;
 pub use scalar::Scalar;
 
+#[cfg(target_arch = "x86_64")]
+use registers::entered;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use registers::{entered, intrinsic, registers};
+use registers::{intrinsic, registers};
 
 use accel::settings::one_of;
 

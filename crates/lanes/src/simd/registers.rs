@@ -14,6 +14,7 @@ pub(super) use intrinsic;
 
 /// The function that enters an instruction set from a type that proves its presence, by the features it consists of: those
 /// that are detected are those that are enabled.
+#[cfg(target_arch = "x86_64")]
 macro_rules! entered {
     ($token:ident, $($feature:tt)*) => {
         /// Whether this machine has all that is enabled.
@@ -43,6 +44,7 @@ macro_rules! entered {
         }
     };
 }
+#[cfg(target_arch = "x86_64")]
 pub(super) use entered;
 
 /// In an `impl` of [`Simd`](super::Simd): the number of lanes and the types of registers, how they are filled, loaded and
