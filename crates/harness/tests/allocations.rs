@@ -62,7 +62,7 @@ fn refused_memory_is_an_error_and_nothing_is_kept() {
     }
 }
 
-/// How many allocations there were to be refused, about.
+/// How many allocations there were to be refused.
 fn refuse_each(
     structure: &str,
     scene: &Scene,
@@ -88,8 +88,7 @@ fn refuse_each(
             pool.install(|| answers_as_brute_force(&choice, scene, workload));
             return refused;
         }
-        // Each at first; of thousands fewer and fewer.
-        refused += 1 + refused / 32;
+        refused += 1;
     }
 }
 

@@ -1,7 +1,7 @@
 //! Several rays side by side in lanes.
 
 use crate::simd::{ROW, Simd};
-use accel::{Nearest, Projection, Raster, Ray, Surface, Vec3};
+use accel::{Aabb, Nearest, Projection, Raster, Ray, Surface, Vec3};
 
 /// Three coordinates of `LANES` vectors.
 pub type Vec3Lanes<S> = [<S as Simd>::F; 3];
@@ -359,4 +359,53 @@ pub fn rows<S: Simd>(s: S, rays: &[Ray]) -> accel::grid::RayRows<ROW> {
         s.store(packet.t_max, &mut rows.t_max[at..]);
     }
     rows
+}
+
+/// The rays that begin in a box, as bits.
+#[inline(always)]
+pub fn begun_within<S: Simd>(s: S, rays: &accel::grid::RayRows<ROW>, Aabb { min, max }: &Aabb) -> u32 {
+    let mut within = 0;
+    for at in (0..ROW).step_by(S::LANES) {
+        let mut here = s.mask(u32::MAX);
+        for axis in 0..3 {
+            let origin = s.load(&rays.origin[axis][at..]);
+            let below = s.le(origin, s.splat(max[axis]));
+            here = s.and(here, s.and(below, s.le(s.splat(min[axis]), origin)));
+        }
+        within |= s.bits(here) << at;
+    }
+    within
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{Level, Task};
+
+    struct Begun<'a>(&'a [Ray], Aabb);
+
+    impl Task for Begun<'_> {
+        type Out = u32;
+
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> u32 {
+            begun_within(s, &rows(s, self.0), &self.1)
+        }
+    }
+
+    #[test]
+    fn rays_that_begin_in_a_box_or_on_its_sides_are_told() {
+        let bounds = Aabb { min: Vec3::new(-1.0, 0.0, 2.0), max: Vec3::new(1.0, 3.0, 4.0) };
+        let ray = |i: u8| {
+            let at = |from: f32, place: u8| from + f32::from(place % 3);
+            Ray::new(Vec3::new(at(-2.0, i), at(-1.0, i / 3), at(2.0, i / 2)), Vec3::X)
+        };
+        let rays: Vec<Ray> = (0..16).map(ray).collect();
+        let inside = |ray: &Ray| ray.origin.cmpge(bounds.min).all() && ray.origin.cmple(bounds.max).all();
+        let expected = rays.iter().zip(0..).fold(0, |bits, (ray, i)| bits | u32::from(inside(ray)) << i);
+        assert!(expected != 0 && expected != 0xffff);
+        for level in Level::here() {
+            assert_eq!(level.run(Begun(&rays, bounds)), expected, "{level:?}");
+        }
+    }
 }

@@ -4,8 +4,8 @@ use super::beam::{Beam, BeamRays};
 use super::scratch::{STREAM, Scratch};
 use super::state::{DirectionRows, TraversalState};
 use accel::grid::{Grid, Span};
-use accel::{Aabb, Nearest, Ray};
-use lanes::packet::rows;
+use accel::{Nearest, Ray};
+use lanes::packet::{begun_within, rows};
 use lanes::{Lists, ROW, SHARE, Simd, Task};
 
 /// The group, after those of octants, of rays of any direction that begin within the scene: what is near comes first for all of
@@ -47,22 +47,11 @@ impl Task for Begin<'_> {
         }
         beams.clear();
         beam_rays.clear();
-        let Aabb { min, max } = *frame.bounds();
         let (mut ids, mut marks, mut lens) = ([0; SHARE], [0; SHARE], [0; ROW]);
         for (first, rays) in (0..).step_by(ROW).zip(rays.chunks(ROW)) {
             let rows = rows(s, rays);
             let segments = frame.clip_rows(&rows);
             let ways = DirectionRows::of(s, &rows, &segments);
-            let mut inside = 0;
-            for at in (0..ROW).step_by(S::LANES) {
-                let mut here = s.mask(u32::MAX);
-                for axis in 0..3 {
-                    let origin = s.load(&rows.origin[axis][at..]);
-                    let below = s.le(origin, s.splat(max[axis]));
-                    here = s.and(here, s.and(below, s.le(s.splat(min[axis]), origin)));
-                }
-                inside |= s.bits(here) << at;
-            }
             let mut on = 0;
             for lane in 0..rays.len() {
                 // Those that miss the scene are in no list.
@@ -75,16 +64,16 @@ impl Task for Begin<'_> {
                 spans[lane] = segments.span(lane);
                 best[lane] = Nearest::new(rows.t_max[lane]);
             }
+            // Neighbours of one octant, such as shadow rays, have a list that fills without others.
+            let shared = if mixed && !ways.agree(on) { begun_within(s, &rows, frame.bounds()) } else { 0 };
             if let Some(beam) = Beam::of(s, &segments, &ways, on, first as u32, spread) {
                 beams.push(beam);
                 beam_rays.push(BeamRays::new(rows, on));
                 on = 0;
             }
-            // Neighbours of one octant, such as shadow rays, have a list that fills without others.
-            let mixed = mixed && !ways.agree(on);
             let half = first % SHARE;
             for lane in 0..rays.len() {
-                let group = if mixed && inside >> lane & 1 != 0 { MIXED as u32 } else { ways.octant(lane) };
+                let group = if shared >> lane & 1 != 0 { MIXED as u32 } else { ways.octant(lane) };
                 ids[half + lane] = (first + lane) as u16;
                 marks[half + lane] = (on >> lane & 1) as u16 * (1 << group);
             }
