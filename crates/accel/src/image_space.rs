@@ -86,6 +86,22 @@ impl<const L: usize> PixelLanes<L> {
     }
 }
 
+/// The row and column of the pixel of a raster whose ray this is, bit for bit.
+pub fn pixel_of(raster: &Raster, ray: &crate::Ray) -> Option<(u32, u32)> {
+    let find = |[rows, cols]: [Range<u32>; 2]| {
+        rows.flat_map(|row| cols.clone().map(move |col| (row, col)))
+            .find(|&(row, col)| raster.ray(row, col) == *ray)
+    };
+    let around = |place: f64, pixels: u32| {
+        let pixel = place.floor().clamp(0.0, f64::from(pixels.max(1) - 1)) as u32;
+        pixel.saturating_sub(1)..(pixel + 2).min(pixels)
+    };
+    let near = ImageSpace::new(raster).locate(ray);
+    near.and_then(|(x, y)| find([around(y, raster.rows), around(x, raster.cols)]))
+        // Rounding may hide where a ray passes an image that is almost a line or a point.
+        .or_else(|| find([0..raster.rows, 0..raster.cols]))
+}
+
 impl ImageSpace {
     /// The image space of a raster.
     pub fn new(raster: &Raster) -> Self {
@@ -157,7 +173,7 @@ impl ImageSpace {
     }
 
     /// About where a ray of the raster passes the image: column and row, in pixels from its outer corner.
-    pub fn locate(&self, ray: &crate::Ray) -> Option<(f64, f64)> {
+    fn locate(&self, ray: &crate::Ray) -> Option<(f64, f64)> {
         let vector = |v: crate::Vec3| [0, 1, 2].map(|a| f64::from(v[a]));
         let [t, x, y] = match self.projection {
             Projection::Parallel => {

@@ -104,6 +104,23 @@ const _: () = assert!(BALL >= 4.0 * 2.0 * 10.0 * DOUBLE_ROUNDING);
 /// ([`crate::far`] moves origins without error): it is how far tests go.
 pub const FAR: f32 = (1u128 << 100) as f32;
 
+/// **17.** A triangle's edge function is a determinant of a ray's direction, an edge and the way from the ray's origin to a
+/// corner. Where such are held against the cells of a raster, they may be wrong by this part of the sums of these
+/// vectors' components: a kernel that multiplies differences of corners finds signs that are right but for 64 ε of them
+/// (each determinant has some eight roundings, of three of them the sum is taken), the raster's rays are off by (12), and what
+/// is computed of sixteen triangles, three of these determinants and their changes across a cell, by some 40 ε.
+pub const EDGE: f32 = 128.0 * ROUNDING as f32;
+const _: () = assert!(EDGE as f64 >= (64.0 + 40.0) * ROUNDING + RASTER_ROUNDING);
+
+/// **18.** The same for kernels that multiply the ways from the origin to both ends of an edge, after shearing them: four ε
+/// of the way each, so 64 ε of the product, and three of those in the sum.
+pub const CORNERS: f32 = 512.0 * ROUNDING as f32;
+const _: () = assert!(CORNERS as f64 >= (3.0 * 64.0 + 64.0 + 40.0) * ROUNDING + RASTER_ROUNDING);
+
+/// **19.** And by this much, times any of the sizes, where products are denormal: each is then off by 2^-150, as in (13).
+pub const EDGE_UNDERFLOW: f32 = 1.0 / (1u128 << 120) as f32;
+const _: () = assert!(EDGE_UNDERFLOW as f64 >= 64.0 * f32::MIN_POSITIVE as f64 * ROUNDING);
+
 /// [`FAR`] of a scene with these bounds, which are not empty. A scene without extent counts as long as its coordinates are
 /// fine.
 pub fn reach_of(bounds: &Aabb) -> f64 {

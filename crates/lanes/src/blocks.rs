@@ -1,5 +1,6 @@
 //! Objects packed in blocks of 64: a structure with bit maps speaks of them in masks.
 
+use crate::Tile;
 use crate::packet::{NearestPacket, Packet, Pairs};
 use crate::simd::{ROW, Row, Simd};
 use accel::{Bounds, BuildError, Common, Nearest, Objects, Ray};
@@ -146,6 +147,31 @@ pub trait Blocks: Send + Sync {
     #[inline(always)]
     fn packet_prepared<S: Simd>(&self, s: S, at: Shared, rays: &Self::Many<S>, best: &mut NearestPacket<S>) {
         self.packet(s, at.slot, rays, best);
+    }
+
+    /// Rows of values for each 16 slots that [`Blocks::prepare_culling`] computes; none where nothing is ever culled.
+    const CULLING_ROWS: usize = 0;
+
+    /// Computes, for the 16 slots from `first` on (a multiple of 16), what [`Blocks::survivors`] looks at in the cells of a
+    /// tile, and says which of them rays of the tile may hit, as bits.
+    ///
+    /// # Panics
+    /// If `rows` are fewer than [`Blocks::CULLING_ROWS`].
+    #[inline(always)]
+    fn prepare_culling<S: Simd>(&self, s: S, first: usize, tile: &Tile, rows: &mut [Row]) -> u32 {
+        let _ = (s, first, tile, rows);
+        u32::MAX
+    }
+
+    /// Of 16 slots those that rays of a cell may hit, as bits: no test of another with any of these rays gives a hit. The cell's
+    /// middle is told from that of the tile.
+    ///
+    /// # Panics
+    /// If `rows` are fewer than [`Blocks::CULLING_ROWS`].
+    #[inline(always)]
+    fn survivors<S: Simd>(s: S, rows: &[Row], middle: [f32; 2]) -> u32 {
+        let _ = (s, rows, middle);
+        u32::MAX
     }
 
     /// [`Blocks::resolve`] for what [`Blocks::packet`] deferred.

@@ -6,11 +6,15 @@ mod blocks;
 mod ids;
 mod one_by_one;
 pub mod packet;
+mod ranks;
 mod simd;
+mod tile;
 
 pub use bits::ones;
 pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Shared};
 pub use ids::Ids;
 pub use one_by_one::{OneByOne, Unpacked, one_by_one};
+pub use ranks::ranks;
 pub use simd::path;
 pub use simd::{Level, Lists, Portable, ROW, Row, SHARE, Scalar, Simd, Task, prefetch};
+pub use tile::Tile;

@@ -145,3 +145,18 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn every_ray_has_its_pixel_and_others_have_none() {
+    // The last is a line of pixels, and places along it are lost in rounding.
+    let far = Raster { origin: Vec3::splat(3e5), down: Vec3::ZERO, ..parallel() };
+    for raster in [parallel(), perspective(), far] {
+        for (row, col) in (0..8).flat_map(|row| (0..10).map(move |col| (row, col))) {
+            let ray = raster.ray(row, col);
+            let (row, col) = pixel_of(&raster, &ray).expect("a ray of the raster");
+            assert_eq!(raster.ray(row, col), ray);
+            let beside = crate::Ray { direction: ray.direction + Vec3::new(0.0, 0.0, 0.001), ..ray };
+            assert_eq!(pixel_of(&raster, &beside), None);
+        }
+    }
+}

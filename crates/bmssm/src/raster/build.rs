@@ -7,7 +7,7 @@ use super::{RasterMaps, Settings, THICKNESS};
 use crate::id::ID;
 use accel::parallel::prelude::*;
 use accel::{BuildError, Cancel, Raster, concatenated, filled};
-use lanes::{BLOCK, EMPTY_SLOT, PackedObjects, Simd, Task, prefetch};
+use lanes::{BLOCK, EMPTY_SLOT, PackedObjects, Simd, Task, prefetch, ranks};
 
 /// Blocks handled by one task.
 const CHUNK: usize = 64;
@@ -136,14 +136,17 @@ impl Part {
     /// Appends a block.
     #[inline(always)]
     fn push(&mut self, objects: impl Iterator<Item = Shown>) -> Result<(), BuildError> {
-        let (mut slots, mut count) = ([Shown::default(); BLOCK], 0);
-        let mut depths = [NOTHING; BLOCK];
+        let (mut slots, mut count, mut cells) = ([Shown::default(); BLOCK], 0, 0u32);
+        // Depths are not negative, so their bits are ordered as they are; slots without an object come last.
+        let mut depths = [i32::MAX - 1; BLOCK];
         let (mut row, mut row_end, mut col, mut col_end) = (u32::MAX, 0, u32::MAX, 0);
         for ((slot, depth), object) in slots.iter_mut().zip(&mut depths).zip(objects) {
             *slot = object;
             *depth = object.depth.to_bits().cast_signed();
             (row, row_end) = (row.min(object.rows[0]), row_end.max(object.rows[1] + 1));
             (col, col_end) = (col.min(object.cols[0]), col_end.max(object.cols[1] + 1));
+            let across = |[first, last]: [u32; 2]| last + 1 - first;
+            cells = cells.saturating_add(across(object.rows).saturating_mul(across(object.cols)));
             count += 1;
         }
         let ranks = ranks(&depths);
@@ -156,7 +159,8 @@ impl Part {
             *depth = object.depth;
         }
         let first = self.words.len();
-        let block = Block { words: first as u32, row, rows: row_end - row, col, cols: col_end - col, depth };
+        let block =
+            Block { words: first as u32, row, rows: row_end - row, col, cols: col_end - col, depth, cells };
         accel::make_room(ID, &mut self.words, block.len())?;
         self.words.resize(first + block.len(), 0);
         let (r, s) = self.words[first..].split_at_mut(block.rows as usize);
@@ -171,46 +175,5 @@ impl Part {
         }
         self.ids.resize(self.ids.len() + BLOCK - count, EMPTY_SLOT);
         accel::append(ID, &mut self.blocks, block)
-    }
-}
-
-/// The bits of a depth behind all others. Depths are not negative, so their bits are ordered as they are.
-const NOTHING: i32 = i32::MAX - 1;
-
-/// The place of each in their order, equal ones as they come.
-///
-/// By counting who comes before whom: that takes lanes and no branch, which a sort of so few can't foresee.
-#[inline(always)]
-fn ranks(depths: &[i32; BLOCK]) -> [u32; BLOCK] {
-    let mut ranks = [0; BLOCK];
-    // Those not yet passed come after an equal one.
-    let mut ends = *depths;
-    for end in &mut ends {
-        *end += 1;
-    }
-    for (i, depth) in depths.iter().enumerate() {
-        ends[i] = *depth;
-        for (rank, end) in ranks.iter_mut().zip(&ends) {
-            *rank += u32::from(depth < end);
-        }
-    }
-    ranks
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn ranks_are_those_of_a_stable_sort(depths in prop::collection::vec(0..40i32, 0..=BLOCK)) {
-            let mut padded = [NOTHING; BLOCK];
-            padded[..depths.len()].copy_from_slice(&depths);
-            let mut places: Vec<usize> = (0..BLOCK).collect();
-            places.sort_by_key(|i| padded[*i]);
-            let ranks = ranks(&padded);
-            prop_assert!(places.into_iter().enumerate().all(|(rank, i)| ranks[i] as usize == rank));
-        }
     }
 }

@@ -25,6 +25,8 @@ pub(super) struct Block {
     pub cols: u32,
     /// Lower bound of the t of any hit on the objects of each group; never falls from group to group.
     pub depth: [f32; GROUPS],
+    /// Cells where slices of an object meet, summed over the objects.
+    pub cells: u32,
 }
 
 impl Block {

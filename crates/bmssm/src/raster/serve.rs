@@ -1,13 +1,13 @@
 //! The maps of a raster behind [`Accel`].
 
 use super::RasterMaps;
-use accel::{Accel, Counters, Footprint, Hit, Raster, Ray, RaySet, for_each_ray};
+use accel::{Accel, Counters, Footprint, Hit, Raster, Ray, RaySet, for_each_ray, image_space};
 use lanes::PackedObjects;
 
 impl<O: PackedObjects> RasterMaps<O> {
     /// The pixel of a ray that has to be one of the raster's.
     fn asked_for(&self, ray: &Ray) -> (u32, u32) {
-        let Some(pixel) = self.pixel_of(ray) else {
+        let Some(pixel) = image_space::pixel_of(self.raster(), ray) else {
             panic!("{ray:?} is no ray of the raster that was asked for");
         };
         pixel

@@ -1,10 +1,8 @@
 //! Single pixels, coverage and memory.
 
 use super::{RasterMaps, THICKNESS};
-use accel::image_space::ImageSpace;
-use accel::{Footprint, Hit, Nearest, Raster, Ray, vec_bytes};
+use accel::{Footprint, Hit, Nearest, Raster, vec_bytes};
 use lanes::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Simd, Task, ones};
-use std::ops::Range;
 
 /// The ray of one pixel.
 struct Pixel<'a, O: PackedObjects> {
@@ -61,23 +59,6 @@ impl<O: PackedObjects> RasterMaps<O> {
     pub fn closest(&self, row: u32, col: u32) -> Option<Hit> {
         assert!(row < self.raster.rows && col < self.raster.cols, "pixel ({row}, {col}) outside the image");
         self.settings.simd.run(Pixel { maps: self, row, col }).hit()
-    }
-
-    /// The pixel whose ray this is.
-    pub fn pixel_of(&self, ray: &Ray) -> Option<(u32, u32)> {
-        let Raster { rows, cols, .. } = self.raster;
-        let find = |near: [Range<u32>; 2]| {
-            let [ys, xs] = near;
-            ys.flat_map(|row| xs.clone().map(move |col| (row, col)))
-                .find(|&(row, col)| self.raster.ray(row, col) == *ray)
-        };
-        let around = |v: f64, n: u32| {
-            let v = v.floor().clamp(0.0, f64::from(n.max(1) - 1)) as u32;
-            v.saturating_sub(1)..(v + 2).min(n)
-        };
-        let near = ImageSpace::new(&self.raster).locate(ray);
-        // Rounding may hide where a ray passes an image that is almost a line or a point.
-        near.and_then(|(x, y)| find([around(y, rows), around(x, cols)])).or_else(|| find([0..rows, 0..cols]))
     }
 
     /// The raster that the maps serve.

@@ -5,17 +5,21 @@ use super::{RasterMaps, THICKNESS};
 use accel::parallel::map_chunks;
 use accel::{Common, Count, Counters, Hit, Nearest, NoCount};
 use lanes::packet::{NearestPacket, Packet};
-use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Shared, Simd, Task};
+use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Shared, Simd, Task, Tile};
 use std::ops::Range;
 
 /// Pixels where two slices meet.
 const CELL: usize = (THICKNESS * THICKNESS) as usize;
 
+/// A block's objects are held against each cell from so many on that they cover together: it takes about as long as one
+/// test, and of small objects few are outside of a cell that their box touches.
+const CULLED: u32 = 5 * BLOCK as u32;
+
 /// Blocks after which a tile's farthest hit is found again.
 const PATIENCE: u32 = 4;
 
 /// Rays and nearest hits of a tile's pixels, and values prepared for one block.
-struct Tile<S: Simd, M> {
+struct TileTrace<S: Simd, M> {
     /// Slices of rows.
     rows: Range<u32>,
     /// Slices of columns.
@@ -26,6 +30,21 @@ struct Tile<S: Simd, M> {
     rays: Vec<M>,
     best: Vec<NearestPacket<S>>,
     prepared: Vec<Row>,
+    culling: Vec<Row>,
+}
+
+/// A block in a tile, and which of its groups have been prepared.
+struct AtBlock<'a> {
+    at: usize,
+    common: Common,
+    tile: Tile<'a>,
+    /// Whether objects are held against each cell before rays are.
+    culls: bool,
+    /// Objects that rays of the tile may hit, of groups that have been held against it.
+    shown: u64,
+    /// Groups prepared for culling, and for tests.
+    culling: u32,
+    tests: u32,
 }
 
 /// One row of tiles.
@@ -80,7 +99,7 @@ impl<O: PackedObjects, C: Count> Task for Band<'_, O, C> {
     #[inline(always)]
     fn run<S: Simd>(mut self, s: S) -> C {
         let maps = self.maps;
-        let mut tile = Tile::<S, <O::Blocks as Blocks>::Many<S>>::new(s, maps);
+        let mut tile = TileTrace::<S, <O::Blocks as Blocks>::Many<S>>::new(s, maps);
         let across = maps.raster.cols.div_ceil(THICKNESS).div_ceil(maps.settings.tile);
         tile.rows = maps.slices(self.row, maps.raster.rows);
         for col in 0..across {
@@ -95,7 +114,7 @@ impl<O: PackedObjects, C: Count> Task for Band<'_, O, C> {
     }
 }
 
-impl<S: Simd, M: Copy> Tile<S, M> {
+impl<S: Simd, M: Copy> TileTrace<S, M> {
     /// Packets that serve the pixels of a cell.
     const PACKETS: usize = CELL / S::LANES;
 
@@ -114,6 +133,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
             rays: vec![any; cells * Self::PACKETS],
             best: vec![NearestPacket::new(s, s.splat(0.0)); cells * Self::PACKETS],
             prepared: vec![Row([0.0; ROW]); <O::Blocks as Blocks>::PREPARED_ROWS * GROUPS],
+            culling: vec![Row([0.0; ROW]); <O::Blocks as Blocks>::CULLING_ROWS * GROUPS],
         }
     }
 
@@ -155,8 +175,9 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     ) where
         O::Blocks: Blocks<Many<S> = M>,
     {
-        let common = maps.raster.common();
         let (rows, cols) = (self.rows.clone(), self.cols.clone());
+        let common = maps.raster.common();
+        let tile = Tile::new(&maps.raster, rows.clone(), cols.clone(), THICKNESS);
         let across = cols.len();
         let mut farthest = f32::INFINITY;
         let mut patience = PATIENCE;
@@ -182,8 +203,11 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                 let (left, right) = (cols.start.max(block.col), cols.end.min(block.col + block.cols));
                 let r_words = &r_words[(top - block.row) as usize..(bottom - block.row) as usize];
                 let s_words = &s_words[(left - block.col) as usize..(right - block.col) as usize];
-                let mut prepared = 0;
+                let culls = <O::Blocks as Blocks>::CULLING_ROWS > 0 && block.cells > CULLED;
+                let mut here = AtBlock { at, common, tile, culls, shown: u64::MAX, culling: 0, tests: 0 };
+                let [first_x, mut y] = tile.cell(top, left);
                 for (r, row) in r_words.iter().zip(top..) {
+                    let mut x = first_x;
                     let first = (row - rows.start) as usize * across + (left - cols.start) as usize;
                     count.words(s_words.len() as u64);
                     for (c, cell) in s_words.iter().zip(first..) {
@@ -193,58 +217,84 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                             if !self.open[cell] {
                                 self.open(s, maps, cell);
                             }
-                            self.cell(s, maps, at, cell, candidates, &common, &mut prepared, count);
+                            self.cell(s, maps, &mut here, (cell, [x, y]), candidates, count);
                         }
+                        x += THICKNESS as f32;
                     }
+                    y += THICKNESS as f32;
                 }
             }
         }
     }
 
-    /// Tests a block's candidates in the pixels of one cell.
-    #[allow(clippy::too_many_arguments)]
+    /// Tests a block's candidates in the pixels of one cell, whose middle is told from that of the tile.
     #[inline(always)]
     fn cell<O: PackedObjects, C: Count>(
         &mut self,
         s: S,
         maps: &RasterMaps<O>,
-        block: usize,
-        cell: usize,
-        candidates: u64,
-        common: &Common,
-        prepared: &mut u32,
+        block: &mut AtBlock,
+        (cell, middle): (usize, [f32; 2]),
+        mut candidates: u64,
         count: &mut C,
     ) where
         O::Blocks: Blocks<Many<S> = M>,
     {
         let each = <O::Blocks as Blocks>::PREPARED_ROWS;
-        let depth = &maps.blocks[block].depth;
+        let culled_by = <O::Blocks as Blocks>::CULLING_ROWS;
         count.candidates(u64::from(candidates.count_ones()));
-        for packet in cell * Self::PACKETS..(cell + 1) * Self::PACKETS {
-            let rays = &self.rays[packet];
-            let mut best = self.best[packet];
-            for (group, &depth) in depth.iter().enumerate() {
-                let mut bits = candidates >> (group * ROW) & 0xffff;
+        candidates &= block.shown;
+        let packets = cell * Self::PACKETS..(cell + 1) * Self::PACKETS;
+        while candidates != 0 {
+            let group = candidates.trailing_zeros() as usize / ROW;
+            let mut bits = (candidates >> (group * ROW) & 0xffff) as u32;
+            candidates &= !(0xffff << (group * ROW));
+            let depth = s.splat(maps.blocks[block.at].depth[group]);
+            let mut open = 0;
+            for best in &self.best[packets.clone()] {
+                open |= s.bits(s.le(depth, best.t));
+            }
+            if open == 0 {
+                break;
+            }
+            let first = block.at * BLOCK + group * ROW;
+            if block.culls {
+                let rows = &mut self.culling[group * culled_by..(group + 1) * culled_by];
+                if block.culling >> group & 1 == 0 {
+                    block.culling |= 1 << group;
+                    let shown = maps.geometry.prepare_culling(s, first, &block.tile, rows) & 0xffff;
+                    block.shown &= !(0xffff << (group * ROW)) | u64::from(shown) << (group * ROW);
+                    bits &= shown;
+                    if bits == 0 {
+                        continue;
+                    }
+                }
+                bits &= O::Blocks::survivors(s, rows, middle);
                 if bits == 0 {
                     continue;
                 }
-                if s.bits(s.le(s.splat(depth), best.t)) == 0 {
-                    break;
-                }
-                let first = block * BLOCK + group * ROW;
-                let rows = &mut self.prepared[group * each..(group + 1) * each];
-                if *prepared >> group & 1 == 0 {
-                    *prepared |= 1 << group;
-                    maps.geometry.prepare(s, first, common, rows);
-                }
-                count.tests(u64::from(bits.count_ones()));
+            }
+            let rows = &mut self.prepared[group * each..(group + 1) * each];
+            if block.tests >> group & 1 == 0 {
+                block.tests |= 1 << group;
+                maps.geometry.prepare(s, first, &block.common, rows);
+            }
+            count.tests(u64::from(bits.count_ones()));
+            for packet in packets.clone() {
+                let (rays, mut best) = (&self.rays[packet], self.best[packet]);
+                let mut bits = bits;
                 while bits != 0 {
                     let slot = first + bits.trailing_zeros() as usize;
                     bits &= bits - 1;
-                    maps.geometry.packet_prepared(s, Shared { slot, common, rows }, rays, &mut best);
+                    maps.geometry.packet_prepared(
+                        s,
+                        Shared { slot, common: &block.common, rows },
+                        rays,
+                        &mut best,
+                    );
                 }
+                self.best[packet] = best;
             }
-            self.best[packet] = best;
         }
     }
 
@@ -258,9 +308,7 @@ impl<S: Simd, M: Copy> Tile<S, M> {
         for best in &self.best[..self.rows.len() * self.cols.len() * Self::PACKETS] {
             far = s.max(far, best.t);
         }
-        let mut lanes = [f32::NEG_INFINITY; ROW];
-        s.store(far, &mut lanes);
-        lanes.into_iter().fold(f32::NEG_INFINITY, f32::max)
+        s.most(far)
     }
 
     /// Decides the hits that tests left open.
@@ -269,11 +317,9 @@ impl<S: Simd, M: Copy> Tile<S, M> {
     where
         O::Blocks: Blocks<Many<S> = M>,
     {
-        for cell in 0..self.rows.len() * self.cols.len() {
-            if self.open[cell] {
-                for packet in cell * Self::PACKETS..(cell + 1) * Self::PACKETS {
-                    maps.geometry.resolve_packet(s, &self.rays[packet], &mut self.best[packet]);
-                }
+        for (packet, (rays, best)) in self.rays.iter().zip(&mut self.best).enumerate() {
+            if self.open[packet / Self::PACKETS] {
+                maps.geometry.resolve_packet(s, rays, best);
             }
         }
     }
@@ -297,33 +343,22 @@ impl<S: Simd, M: Copy> Tile<S, M> {
                     hits.chunks_exact_mut(width).for_each(|line| line[from..to].fill(None));
                     continue;
                 }
-                let mut found = Found::default();
+                // Row by row of coordinates: hits put together in lanes would be written twice.
+                let (mut t, mut u, mut v, mut object) = ([0.0; CELL], [0.0; CELL], [0.0; CELL], [0; CELL]);
                 for packet in 0..Self::PACKETS {
-                    let best = &self.best[cell * Self::PACKETS + packet];
-                    let first = packet * S::LANES;
-                    s.store(best.t, &mut found.t[first..]);
-                    s.store(best.u, &mut found.u[first..]);
-                    s.store(best.v, &mut found.v[first..]);
-                    s.store_u(best.object, &mut found.object[first..]);
+                    let (first, best) = (packet * S::LANES, &self.best[cell * Self::PACKETS + packet]);
+                    s.store(best.t, &mut t[first..]);
+                    s.store(best.u, &mut u[first..]);
+                    s.store(best.v, &mut v[first..]);
+                    s.store_u(best.object, &mut object[first..]);
                 }
                 for (y, line) in hits.chunks_exact_mut(width).enumerate() {
                     for (x, hit) in line[from..to].iter_mut().enumerate() {
                         let i = y * THICKNESS as usize + x;
-                        let (t, object) = (found.t[i], found.object[i]);
-                        let seen = Hit { t, object, u: found.u[i], v: found.v[i] };
-                        *hit = (object != Nearest::NONE).then_some(seen);
+                        *hit = Nearest { t: t[i], object: object[i], u: u[i], v: v[i] }.hit();
                     }
                 }
             }
         }
     }
-}
-
-/// The nearest hits of a cell.
-#[derive(Default)]
-struct Found {
-    t: [f32; CELL],
-    object: [u32; CELL],
-    u: [f32; CELL],
-    v: [f32; CELL],
 }

@@ -1,7 +1,7 @@
 //! Möller and Trumbore's test in `f64`: the cheap way to be right nearly always.
 
 use super::wide::{OneRay, OneTriangle, Pairs, Products};
-use super::{Kernel, KernelId, Packed, RayForm};
+use super::{EdgeError, Kernel, KernelId, Packed, RayForm};
 use accel::Ray;
 use lanes::packet::RayRows;
 use lanes::packet::{Lanes, Packet};
@@ -42,6 +42,7 @@ impl Kernel for Double {
     const NORMALISED: bool = false;
     crate::plain_kernel!();
     type One = InMemory;
+    const EDGE_ERROR: Option<EdgeError> = Some(EdgeError::Edge);
 
     #[inline(always)]
     fn triangles<S: Simd>(

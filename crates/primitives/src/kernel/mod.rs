@@ -69,6 +69,9 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     type Storage: Storage;
     /// What is computed once for a ray: nothing, if it is [`Ray`] itself.
     type One: RayForm;
+    /// What its edges are made of, where that says how much rounding moves them. [`Kernel::pack`] then writes corners to the first
+    /// nine rows.
+    const EDGE_ERROR: Option<EdgeError> = None;
 
     /// Writes a triangle to lane `lane` of a group of [`Kernel::ROWS`] rows.
     #[inline(always)]
@@ -120,6 +123,19 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
             Self::triangles(Scalar, ray, Packed::new(&group[..Self::ROWS], 0), 1, t_max);
         hit.then_some(Surface { t, u, v })
     }
+}
+
+/// What the signs depend on that a kernel finds for the three edge functions of a triangle and for their sum, so by how much they may
+/// be wrong.
+///
+/// An edge function is the volume that an edge spans with a ray's origin and direction; in the plane of an image it is
+/// J. Pineda's (*A Parallel Algorithm for Polygon Rasterization*, SIGGRAPH 1988).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeError {
+    /// Differences of corners are multiplied, or signs are exact: [`accel::tolerance::EDGE`].
+    Edge,
+    /// Both ends of an edge are seen from the origin: [`accel::tolerance::CORNERS`].
+    Corners,
 }
 
 /// `LANES` rays as kernel `K` wants them.

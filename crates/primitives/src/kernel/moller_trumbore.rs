@@ -3,8 +3,8 @@
 
 use super::packed::splat_row3;
 use super::{
-    Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, Preparation, Prepared, cross3, dot3,
-    store_rows, sub3,
+    EdgeError, Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, Preparation, Prepared, cross3,
+    dot3, store_rows, sub3,
 };
 use accel::{Common, Ray};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
@@ -21,6 +21,7 @@ impl Kernel for MollerTrumbore {
     type Search = InPairs;
     type Storage = Floats;
     type One = Ray;
+    const EDGE_ERROR: Option<EdgeError> = Some(EdgeError::Edge);
 
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Ray, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {

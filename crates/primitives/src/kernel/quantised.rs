@@ -1,7 +1,8 @@
 //! Corners of 16 bits a coordinate.
 
 use super::{
-    Immediate, Kernel, KernelId, Many, MollerTrumbore, Packed, Preparation, Prepared, QuantisationGrid,
+    EdgeError, Immediate, Kernel, KernelId, Many, MollerTrumbore, Packed, Preparation, Prepared,
+    QuantisationGrid,
 };
 use accel::Common;
 use lanes::packet::Lanes;
@@ -20,6 +21,7 @@ impl Kernel for Quantised {
     type Search = Immediate;
     type Storage = QuantisationGrid;
     type One = <Test as Kernel>::One;
+    const EDGE_ERROR: Option<EdgeError> = Some(EdgeError::Edge);
 
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Self::One, packed: Packed<'_>, wanted: u32, t_max: f32) -> Lanes<S> {

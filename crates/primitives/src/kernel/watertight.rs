@@ -3,7 +3,8 @@
 //! are evaluated in the plane, and a zero edge function is evaluated again in `f64`.
 
 use super::{
-    Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, RayForm, Unprepared, det2, dot3, sub3,
+    EdgeError, Floats, InPairs, Kernel, KernelId, Packed, Paired, Permuted, RayForm, Unprepared, det2, dot3,
+    sub3,
 };
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
@@ -128,6 +129,7 @@ impl Kernel for Watertight {
     type Search = InPairs;
     type Storage = Floats;
     type One = Sheared;
+    const EDGE_ERROR: Option<EdgeError> = Some(EdgeError::Corners);
 
     #[inline(always)]
     fn triangles<S: Simd>(s: S, ray: &Sheared, packed: Packed<'_>, _: u32, t_max: f32) -> Lanes<S> {

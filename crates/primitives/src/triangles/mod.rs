@@ -2,6 +2,7 @@
 
 mod bounds;
 mod deferred;
+mod edges;
 mod frame;
 mod immediate;
 mod in_pairs;
@@ -20,10 +21,11 @@ use crate::kernel::{Packed, Preparation, Prepared, Storage};
 use accel::Objects;
 use accel::{Aabb, BuildError, Common, Corners, MeshRef, Nearest, Ray, Surface};
 use bounds::TriangleBounds;
+use edges::TileRays;
 use frame::Frame;
 use in_place::InPlace;
 use lanes::packet::{NearestPacket, Packet, Pairs, Vec3Lanes};
-use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, Shared, Tile};
 use lanes::{ROW, Row, Simd};
 use search::{Candidates, OneRay, PreparedSlot, Rays, Search, Slot};
 use std::marker::PhantomData;
@@ -342,6 +344,26 @@ impl<K: TriangleKernel> Blocks for TriangleBlocks<'_, K> {
         let at = Slot { blocks: self, slot };
         let one = PreparedSlot { at, prepared: Prepared { common, packed, rows }, limits };
         K::Search::packet_prepared(s, one, rays, best);
+    }
+
+    const CULLING_ROWS: usize = if K::EDGE_ERROR.is_some() { edges::ROWS } else { 0 };
+
+    #[inline(always)]
+    fn prepare_culling<S: Simd>(&self, s: S, first: usize, tile: &Tile, rows: &mut [Row]) -> u32 {
+        let Some(error) = K::EDGE_ERROR else { return u32::MAX };
+        let mut culled = 0;
+        let rays = TileRays::new(tile, self.triangles.frame.scale);
+        let mut scratch = Scratch::EMPTY;
+        for at in (0..ROW).step_by(S::LANES) {
+            let corners = self.unpacked(s, first + at, &mut scratch.0).load_corners(s);
+            culled |= s.bits(edges::prepare(s, &rays, error, corners, rows, at)) << at;
+        }
+        !culled
+    }
+
+    #[inline(always)]
+    fn survivors<S: Simd>(s: S, rows: &[Row], middle: [f32; 2]) -> u32 {
+        if K::EDGE_ERROR.is_some() { edges::survivors(s, rows, middle) } else { u32::MAX }
     }
 
     #[inline(always)]

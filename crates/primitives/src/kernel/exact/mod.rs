@@ -34,7 +34,8 @@ mod tests;
 use super::packed::pack_corners;
 use super::wide::{OneEach, OneRay, OneTriangle};
 use super::{
-    Corners, Deferral, Deferred, Floats, Kernel, KernelId, Packed, Permuted, Preparation, Prepared, RayForm,
+    Corners, Deferral, Deferred, EdgeError, Floats, Kernel, KernelId, Packed, Permuted, Preparation,
+    Prepared, RayForm,
 };
 use accel::{Common, Ray};
 use lanes::packet::RayRows;
@@ -89,6 +90,7 @@ impl Kernel for Exact {
     type Search = Deferred;
     type Storage = Floats;
     type One = Spanned;
+    const EDGE_ERROR: Option<EdgeError> = Some(EdgeError::Edge);
 
     #[inline(always)]
     fn pack(corners: &Corners, group: &mut [Row], lane: usize) {
