@@ -159,6 +159,27 @@ impl Limits {
         Self { first: at(0), low: at(3), high: at(6) }
     }
 
+    /// [`Frame::plainly_holds`] for triangles and rays in lanes: whether that holds for sure.
+    #[inline(always)]
+    pub(super) fn plainly_hold<S: Simd>(
+        s: S,
+        frame: &Frame,
+        [a, b, c]: [Vec3Lanes<S>; 3],
+        rays: &Packet<S>,
+        t: S::F,
+    ) -> S::M {
+        let (half, zero) = (s.splat(frame.pad * 0.5), s.splat(0.0));
+        let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
+        let mut all = s.mask(u32::MAX);
+        for axis in 0..3 {
+            let position = s.add(s.sub(rays.origin[axis], a[axis]), s.mul(rays.direction[axis], t));
+            let low = s.sub(s.min(s.min(edge1[axis], edge2[axis]), zero), half);
+            let high = s.add(s.max(s.max(edge1[axis], edge2[axis]), zero), half);
+            all = s.and(all, s.and(s.le(low, position), s.le(position, high)));
+        }
+        all
+    }
+
     /// The rays whose position at t lies within. Where those at two t's do, so do all between, for rounding keeps order.
     #[inline(always)]
     pub(super) fn hold<S: Simd>(&self, s: S, rays: &Packet<S>, t: S::F) -> S::M {

@@ -1,5 +1,6 @@
 //! Rays and triangles in pairs, one in each lane, each decided at once.
 
+use super::frame::Limits;
 use super::pairs::PairRays;
 use super::search::{Candidates, Search};
 use super::{TriangleBlocks, next_lane};
@@ -18,6 +19,8 @@ impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
         TriangleBlocks<'s, K>: Blocks,
     {
         let frame = &blocks.triangles.frame;
+        // Corners that the kernel sees elsewhere say nothing of where the mesh has them.
+        let near = if blocks.rows_hold_corners() { s.bits(blocks.near(s, pairs.packet)) } else { 0 };
         let mut rays = PairRays::of(s, blocks, pairs, best);
         for at in (0..pairs.len).step_by(S::LANES) {
             let group = rays.group(s, blocks, pairs, at);
@@ -26,12 +29,13 @@ impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
             if hits == 0 {
                 continue;
             }
+            let plain =
+                s.bits(Limits::plainly_hold(s, frame, group.corners, &group.packet(s, pairs), found.t));
             let found = found.rows(s);
             while let Some(lane) = next_lane(&mut hits) {
                 let ((slot, place), surface) = (group.pair(lane), found.surface(lane));
-                let ray = rays.ray(place);
-                let corners = blocks.corners_of(slot);
-                if frame.holds(&corners, &ray, frame.is_near(ray.origin), surface.t) {
+                let plain = plain >> lane & near >> place & 1 != 0;
+                if plain || frame.holds(&blocks.corners_of(slot), &rays.ray(place), false, surface.t) {
                     best[place].offer(blocks.ids.get(slot), surface);
                     rays.found(place, pairs.any, best[place].t);
                 }

@@ -3,7 +3,7 @@
 use super::{CORNER_ROWS, TriangleBlocks};
 use crate::kernel::{Floats, Kernel, Many, Permuted};
 use accel::{MeshRef, Nearest, Ray};
-use lanes::packet::{Pairs, RayRows, Vec3Lanes};
+use lanes::packet::{Packet, Pairs, RayRows, Vec3Lanes};
 use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, Simd};
 
 /// The rays of pairs, prepared.
@@ -92,6 +92,12 @@ impl<K: Permuted<Storage = Floats>, S: Simd> PairRays<K, S> {
 }
 
 impl<K: Kernel, S: Simd> Group<'_, K, S> {
+    /// The ray of each lane, as it was given.
+    #[inline(always)]
+    pub fn packet(&self, s: S, pairs: &Pairs<S>) -> Packet<S> {
+        pairs.packet.permuted(s, s.load_bytes(self.lanes.places))
+    }
+
     /// The slot of a lane's triangle and the place of its ray.
     #[inline(always)]
     pub fn pair(&self, lane: usize) -> (usize, usize) {
