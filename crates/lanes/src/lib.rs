@@ -8,6 +8,7 @@ mod one_by_one;
 pub mod packet;
 mod ranks;
 mod simd;
+pub mod split;
 mod tile;
 
 pub use bits::ones;

@@ -1,9 +1,9 @@
 //! The binary maps of one block: a bit per object in each slice (Skala 1993, §2, §5).
 
-use super::item::Item;
-use super::unit_box::UnitBox;
 use accel::tolerance::LOCAL_MARGIN;
 use lanes::path::{Hull, Path, SLICES};
+use lanes::split::Item;
+use lanes::split::UnitBox;
 use lanes::{BLOCK, Simd};
 
 /// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be

@@ -1,11 +1,11 @@
 //! What the maps take, and what building them takes, from the number of objects alone.
 
-use super::item::Item;
 use super::maps::BlockMaps;
 use super::order;
 use super::tree::Node;
 use crate::id::UNCOUNTED;
 use lanes::BLOCK;
+use lanes::split::Item;
 
 /// The most bytes at any moment of building maps over so many objects, built by so many threads, whose geometry takes `copy` bytes for a number of slots.
 pub fn bytes(objects: usize, threads: usize, copy: impl Fn(usize) -> u128) -> u128 {

@@ -3,35 +3,32 @@
 
 mod beam;
 mod beams;
-mod item;
 mod maps;
 mod memory;
 mod order;
 mod paths;
 mod ready;
+mod scene;
 mod scratch;
-mod split;
 mod state;
 mod stream;
 mod test;
 mod trace;
 mod tree;
-mod unit_box;
 mod visit;
 
 use crate::id::ID;
 use accel::grid::Grid;
 use accel::{BuildError, Cancel, Counters, Footprint, Hit, Nearest, Ray, vec_bytes};
-use item::{Item, Scene};
+use lanes::split::{Item, Shape, UnitBox};
 use lanes::{Blocks, Level, PackedObjects, Simd, Task};
 use maps::BlockMaps;
 pub use memory::bytes;
 use order::Order;
+use scene::Scene;
 use scratch::Scratch;
-use split::Shape;
 use trace::Stack;
 use tree::Node;
-use unit_box::UnitBox;
 
 /// Most objects that are split object by object, and how many unless told otherwise.
 pub const MAX_EXACT_SPLIT: usize = order::PART;

@@ -2,13 +2,14 @@
 //! into blocks of 64 object by object.
 
 use super::Settings;
-use super::item::{Extremes, Item, is_large};
 use super::maps::BlockMaps;
-use super::split::{Divide, Left, Scratch, Shape};
+use super::scene::is_large;
 use crate::id::ID;
 use accel::parallel::extend;
 use accel::parallel::prelude::*;
 use accel::{BuildError, Cancel, concatenated, filled};
+use lanes::split::{Divide, Left, Scratch, Shape};
+use lanes::split::{Extremes, Item};
 use lanes::{BLOCK, EMPTY_SLOT, Level, Simd, Task};
 
 /// The objects in order, block by block.
@@ -314,9 +315,9 @@ impl Task for Cut<'_, '_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::unit_box::UnitBox;
     use super::*;
     use accel::morton;
+    use lanes::split::UnitBox;
 
     fn point(number: u32, at: [f32; 3]) -> Item {
         Item::new(number, 1, &UnitBox { min: at, max: at })

@@ -3,12 +3,12 @@
 //! A level of maps of its own would be the paper's way once more (a bit per block), but boxes, which
 //! there are few of, sort out sixteen children in one go and say where the ray enters each.
 
-use super::item::{Extremes, Item};
-use super::split::{Divide, Left, Scratch, Shape};
-use super::unit_box::UnitBox;
 use crate::id::ID;
 use accel::parallel::prelude::*;
 use accel::{BuildError, filled};
+use lanes::split::UnitBox;
+use lanes::split::{Divide, Left, Scratch, Shape};
+use lanes::split::{Extremes, Item};
 use lanes::{Level, ROW, Row};
 
 /// Most children of a node.

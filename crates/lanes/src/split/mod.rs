@@ -1,9 +1,13 @@
 //! Splits of items across the axis on which they range farthest, by a binned surface area heuristic (I. Wald, *On fast Construction of
 //! SAH-based Bounding Volume Hierarchies*, IEEE Symposium on Interactive Ray Tracing, 2007).
 
-use super::item::{Extremes, Item, whole};
-use super::unit_box::UnitBox;
-use lanes::{Simd, Task};
+mod item;
+mod unit_box;
+
+pub use item::{Extremes, Item, whole};
+pub use unit_box::UnitBox;
+
+use crate::{Simd, Task};
 
 /// What splits weigh.
 #[derive(Clone, Copy, Debug)]
