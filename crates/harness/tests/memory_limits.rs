@@ -100,6 +100,7 @@ fn peaks_are_within_limits() {
                     ("bmssm", Workload::GENERAL),
                     ("bmssm:kernel=exact", Workload::GENERAL),
                     ("bmssm:geometry=scene", Workload::GENERAL),
+                    ("bmssm:geometry=boxes", Workload::GENERAL),
                     ("bmssm", image(64)),
                     ("bmssm:kernel=exact,tile=1", image(1024)),
                     ("bmssm", both),

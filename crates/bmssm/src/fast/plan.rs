@@ -49,16 +49,21 @@ impl Plan {
         });
         let general = workload.general.then(|| {
             let threads = accel::parallel::threads();
-            let least = general::bytes(objects, threads, |slots| (slots * size_of::<u32>()) as u128);
-            let rows = general::bytes(objects, threads, &copy);
+            let takes = |storage| {
+                general::bytes(objects, threads, storage, |slots| match storage {
+                    Storage::Rows => copy(slots),
+                    Storage::Boxes | Storage::Scene => (slots * size_of::<u32>()) as u128,
+                })
+            };
+            let fits = |storage: &Storage| bytes + takes(*storage) <= limit;
             let (storage, why) = match settings.geometry {
                 Some(storage) => (storage, "as set"),
-                None if bytes + rows > limit && least < rows => {
-                    (Storage::Scene, "copies would take more than there is")
-                }
-                None => (Storage::Rows, "a copy for speed"),
+                None => match Storage::ALL.into_iter().find(fits) {
+                    Some(Storage::Rows) => (Storage::Rows, "a copy for speed"),
+                    storage => (storage.unwrap_or(Storage::Scene), "copies would take more than there is"),
+                },
             };
-            beside = if storage == Storage::Rows { rows } else { least };
+            beside = takes(storage);
             bytes += beside;
             let exact_split = exact_split(settings, objects, &mut reasons);
             reasons.push(format!("geometry={}: {why}", storage.id()));

@@ -47,7 +47,7 @@ impl Settings {
         ),
         (
             "geometry",
-            "what rays of any kind are tested with: auto, rows (copied for speed) or scene (nothing copied)",
+            "what rays of any kind are tested with: auto, rows (copied for speed), boxes (copied in their place) or scene (nothing copied)",
         ),
         ("tile", "slices of 4 pixels across a tile of an image, 1 to 16"),
         ("depth_bits", "how much longer than wide a block of an image is, as a power of two, 0 to 8"),

@@ -2,6 +2,7 @@
 
 use super::General;
 use super::beam::{Beam, BeamRays};
+use super::boxes::BlockBoxes;
 use super::maps::BlockMaps;
 use super::ready::Ready;
 use super::scratch::{Scratch, Waiting};
@@ -38,7 +39,8 @@ impl<O: PackedObjects> General<O> {
                 steps.blocks += u64::from(at.len);
                 let block = (at.what & !Node::BLOCK) as usize;
                 let ids = &lists[at.first as usize..(at.first + at.len) as usize];
-                s.apart(Within { maps: &self.maps[block], beams, ids, masks });
+                let (maps, boxes) = (&self.maps[block], self.boxes.get(block));
+                s.apart(Within { maps, boxes, beams, ids, masks });
                 for (id, candidates) in ids.iter().zip(&*masks) {
                     if *candidates != 0 {
                         let (beam, rays) = (&mut beams[usize::from(*id)], &mut beam_rays[usize::from(*id)]);
@@ -120,6 +122,7 @@ impl<O: PackedObjects> General<O> {
 /// The candidates of beams in a block; none of those that are done.
 struct Within<'a> {
     maps: &'a BlockMaps,
+    boxes: Option<&'a BlockBoxes>,
     beams: &'a [Beam],
     /// The beams, by number.
     ids: &'a [u16],
@@ -131,12 +134,16 @@ impl Task for Within<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) {
-        let Self { maps, beams, ids, masks } = self;
+        let Self { maps, boxes, beams, ids, masks } = self;
         masks.clear();
         for id in ids {
             let beam = &beams[usize::from(*id)];
             let done = beam.near.start[3] < 0.0;
-            masks.push(if done { 0 } else { beam.candidates(s, maps) });
+            let candidates = if done { 0 } else { beam.candidates(s, maps) };
+            masks.push(match boxes {
+                Some(boxes) => boxes.met_by(s, maps, [&beam.near, &beam.far], candidates),
+                None => candidates,
+            });
         }
     }
 }

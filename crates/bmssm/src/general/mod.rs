@@ -3,6 +3,7 @@
 
 mod beam;
 mod beams;
+mod boxes;
 mod maps;
 mod memory;
 mod order;
@@ -20,6 +21,7 @@ mod visit;
 use crate::id::ID;
 use accel::grid::Grid;
 use accel::{BuildError, Cancel, Counters, Footprint, Hit, Nearest, Ray, vec_bytes};
+use boxes::BlockBoxes;
 use lanes::split::{Item, Shape, UnitBox};
 use lanes::{Blocks, Level, PackedObjects, Simd, Task};
 use maps::BlockMaps;
@@ -38,18 +40,21 @@ pub const MAX_EXACT_SPLIT: usize = order::PART;
 pub enum Storage {
     /// Copied into rows, block by block.
     Rows,
+    /// Where the scene has them, but for those whose boxes are not met: a block keeps the boxes of its objects, six bytes each.
+    Boxes,
     /// Where the scene has them.
     Scene,
 }
 
 impl Storage {
     /// All there are, fastest first.
-    pub const ALL: [Self; 2] = [Self::Rows, Self::Scene];
+    pub const ALL: [Self; 3] = [Self::Rows, Self::Boxes, Self::Scene];
 
     /// Name as used in settings.
     pub const fn id(self) -> &'static str {
         match self {
             Self::Rows => "rows",
+            Self::Boxes => "boxes",
             Self::Scene => "scene",
         }
     }
@@ -73,6 +78,8 @@ pub struct General<O: PackedObjects> {
     frame: Grid,
     /// Maps of the blocks of objects.
     maps: Vec<BlockMaps>,
+    /// The boxes of the blocks' objects, with [`Storage::Boxes`].
+    boxes: Vec<BlockBoxes>,
     /// The levels above.
     nodes: Vec<Node>,
     /// How far from each other rays of a beam may begin or end, in unit coordinates: about as far as a block is long, for
@@ -94,17 +101,17 @@ impl<O: PackedObjects> General<O> {
         let simd = settings.simd;
         let Scene { frame, extent, items, keys } = Scene::new(&objects.shape(), simd, cancel)?;
         let shape = Shape { extent };
-        let Order { slots, maps, blocks } = Order::new(&shape, items, keys, settings, cancel)?;
+        let Order { slots, maps, boxes, blocks } = Order::new(&shape, items, keys, settings, cancel)?;
         let spread = mean_side(&blocks);
         let nodes = tree::over(&shape, blocks, simd)?;
         cancel.check(ID)?;
         let len = objects.len();
         let objects = match settings.storage {
             Storage::Rows => objects.blocks(ID, &slots)?,
-            Storage::Scene => objects.blocks_in_place(ID, &slots)?,
+            Storage::Boxes | Storage::Scene => objects.blocks_in_place(ID, &slots)?,
         };
         cancel.check(ID)?;
-        Ok(Self { frame, maps, nodes, spread, objects, len, simd })
+        Ok(Self { frame, maps, boxes, nodes, spread, objects, len, simd })
     }
 
     /// The nearest hit of each ray.
@@ -152,6 +159,7 @@ impl<O: PackedObjects> General<O> {
     pub fn footprint(&self) -> Footprint {
         Footprint::default()
             .structure("maps", vec_bytes(&self.maps))
+            .structure("boxes", vec_bytes(&self.boxes))
             .structure("tree", vec_bytes(&self.nodes))
             .geometry_copy("blocks", self.objects.bytes())
     }

@@ -1,9 +1,10 @@
 //! The order of objects: along a Morton curve, split into parts by clusters of neighbours, and the parts
 //! into blocks of 64 object by object.
 
-use super::Settings;
+use super::boxes::BlockBoxes;
 use super::maps::BlockMaps;
 use super::scene::is_large;
+use super::{Settings, Storage};
 use crate::id::ID;
 use accel::parallel::extend;
 use accel::parallel::prelude::*;
@@ -18,6 +19,8 @@ pub struct Order {
     pub slots: Vec<u32>,
     /// The maps of each block.
     pub maps: Vec<BlockMaps>,
+    /// The boxes of each block's objects, if they are wanted.
+    pub boxes: Vec<BlockBoxes>,
     /// The box of each block.
     pub blocks: Vec<Item>,
 }
@@ -57,14 +60,16 @@ impl Order {
         cancel.check(ID)?;
         let blocks = |part: &Part| part.objects.div_ceil(BLOCK);
         let all = parts.iter().map(blocks).sum();
+        let boxed = settings.storage == Storage::Boxes;
         let mut order = Self {
             slots: filled(ID, EMPTY_SLOT, all * BLOCK)?,
             maps: filled(ID, BlockMaps::EMPTY, all)?,
+            boxes: filled(ID, BlockBoxes::EMPTY, if boxed { all } else { 0 })?,
             blocks: filled(ID, Item::EMPTY, all)?,
         };
         let mut rooms = accel::reserved(ID, parts.len())?;
-        let (mut slots, mut maps, mut boxed) =
-            (&mut order.slots[..], &mut order.maps[..], &mut order.blocks[..]);
+        let (mut slots, mut maps) = (&mut order.slots[..], &mut order.maps[..]);
+        let (mut boxes, mut bounds) = (&mut order.boxes[..], &mut order.blocks[..]);
         let mut first = 0;
         for part in parts {
             let n = blocks(&part);
@@ -72,7 +77,8 @@ impl Order {
                 first,
                 slots: slots.split_off_mut(..n * BLOCK).expect("room for all"),
                 maps: maps.split_off_mut(..n).expect("room for all"),
-                blocks: boxed.split_off_mut(..n).expect("room for all"),
+                boxes: boxes.split_off_mut(..if boxed { n } else { 0 }).expect("room for all"),
+                blocks: bounds.split_off_mut(..n).expect("room for all"),
             };
             first += n as u32;
             rooms.push((part, room));
@@ -210,6 +216,7 @@ struct Room<'o> {
     first: u32,
     slots: &'o mut [u32],
     maps: &'o mut [BlockMaps],
+    boxes: &'o mut [BlockBoxes],
     blocks: &'o mut [Item],
 }
 
@@ -297,6 +304,9 @@ impl Task for Cut<'_, '_> {
             if from.len() <= BLOCK {
                 let bounds = Extremes::of(from).bounds();
                 room.maps[at] = BlockMaps::new(s, &bounds, from);
+                if let Some(boxes) = room.boxes.get_mut(at) {
+                    *boxes = BlockBoxes::new(&room.maps[at], from);
+                }
                 room.blocks[at] = Item::new(room.first + at as u32, 1, &bounds);
                 for (slot, item) in room.slots[at * BLOCK..].iter_mut().zip(from) {
                     *slot = item.number();

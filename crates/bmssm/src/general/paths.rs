@@ -1,5 +1,6 @@
 //! Rays at a block.
 
+use super::boxes::{BlockBoxes, LocalRays};
 use super::maps::BlockMaps;
 use super::scratch::PairList;
 use super::state::TraversalState;
@@ -9,6 +10,8 @@ use lanes::{BLOCK, ROW, Simd, Task};
 /// The candidates of up to `LANES` rays in a block, R & S & T along the path of each.
 pub(super) struct Along<'a> {
     pub maps: &'a BlockMaps,
+    /// Against which candidates are held, if there are any.
+    pub boxes: Option<&'a BlockBoxes>,
     pub states: &'a [TraversalState],
     /// The rays, by number.
     pub ids: &'a [u16],
@@ -21,24 +24,31 @@ impl Task for Along<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> [u64; ROW] {
-        let Self { maps, states, ids, mut pairs } = self;
+        let Self { maps, boxes, states, ids, mut pairs } = self;
         let mut chosen = [&states[usize::from(ids[0]) % states.len()]; ROW];
         for (chosen, id) in chosen.iter_mut().zip(ids) {
             *chosen = &states[usize::from(*id)];
         }
-        let paths = Paths::of(s, maps, &chosen, ids.len());
+        let (paths, local) = Paths::of(s, maps, &chosen, ids.len());
         let mut masks = [0; ROW];
         let mut met = paths.met;
         while met != 0 {
             let lane = met.trailing_zeros() as usize % ROW;
             met &= met - 1;
             let candidates = maps.along(s, paths.axes[lane] as usize, &paths.path(lane));
-            masks[lane] = candidates;
             if let Some(pairs) = &mut pairs {
                 let slots = pairs.slots[pairs.len..].first_chunk_mut().expect("room for all pairs");
                 pairs.rays[pairs.len..pairs.len + BLOCK].fill(lane as u8);
                 pairs.len += s.set_bits(candidates, slots);
+                continue;
             }
+            masks[lane] = match boxes {
+                Some(boxes) => boxes.met_by(s, maps, [chosen[lane]; 2], candidates),
+                None => candidates,
+            };
+        }
+        if let (Some(boxes), Some(pairs)) = (boxes, pairs) {
+            boxes.keep_met(s, &local, pairs);
         }
         masks
     }
@@ -56,7 +66,12 @@ struct Paths {
 
 impl Paths {
     #[inline(always)]
-    fn of<S: Simd>(s: S, maps: &BlockMaps, chosen: &[&TraversalState; ROW], len: usize) -> Self {
+    fn of<S: Simd>(
+        s: S,
+        maps: &BlockMaps,
+        chosen: &[&TraversalState; ROW],
+        len: usize,
+    ) -> (Self, LocalRays<S>) {
         let mut quads = [&chosen[0].start; ROW];
         for (quad, chosen) in quads.iter_mut().zip(chosen) {
             *quad = &chosen.start;
@@ -70,16 +85,18 @@ impl Paths {
         let (zero, last) = (s.splat(0.0), s.splat(lanes::path::SLICES as f32));
         let (mut enter, mut exit) = (zero, limit);
         let (mut from, mut to, mut way, mut size) = ([zero; 3], [zero; 3], [zero; 3], [zero; 3]);
+        let mut per_slice = [zero; 3];
         for axis in 0..3 {
             let density = s.splat(maps.density[axis]);
             from[axis] = s.mul(s.sub(start[axis], s.splat(maps.origin[axis])), density);
-            let per_slice = s.mul(inverse[axis], s.splat(1.0 / maps.density[axis]));
-            way[axis] = s.div(s.splat(1.0), per_slice);
+            per_slice[axis] = s.mul(inverse[axis], s.splat(1.0 / maps.density[axis]));
+            way[axis] = s.div(s.splat(1.0), per_slice[axis]);
             let backwards = s.lt(inverse[axis], zero);
             let (near, far) = (s.select(backwards, last, zero), s.select(backwards, zero, last));
-            enter = s.max(enter, s.mul(s.sub(near, from[axis]), per_slice));
-            exit = s.min(exit, s.mul(s.sub(far, from[axis]), per_slice));
+            enter = s.max(enter, s.mul(s.sub(near, from[axis]), per_slice[axis]));
+            exit = s.min(exit, s.mul(s.sub(far, from[axis]), per_slice[axis]));
         }
+        let local = LocalRays::new(s, from, per_slice, limit);
         let met = s.bits(s.le(enter, exit)) & (u32::MAX >> (32 - len));
         for axis in 0..3 {
             to[axis] = s.add(from[axis], s.mul(exit, way[axis]));
@@ -124,7 +141,7 @@ impl Paths {
         for (lane, axis) in axes.iter_mut().enumerate() {
             *axis = if third >> lane & 1 != 0 { 2 } else { second >> lane & 1 };
         }
-        Self { met, axes, rows }
+        (Self { met, axes, rows }, local)
     }
 
     #[inline(always)]

@@ -1,9 +1,11 @@
 //! Rays on their way through the scene.
 
-use super::trace::MIN;
 use accel::grid::{RayRows, SegmentRows};
-use accel::tolerance::LIMIT_S;
+use accel::tolerance::{LIMIT_S, PARALLEL};
 use lanes::{ROW, Simd};
+
+/// A component of the way is at least this long, so that its reciprocal is finite and no product is NaN.
+pub(super) const MIN: f32 = PARALLEL as f32;
 
 /// A ray on its way, in unit coordinates, as nodes and blocks need it.
 #[derive(Clone, Copy, Debug)]

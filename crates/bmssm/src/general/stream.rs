@@ -126,14 +126,14 @@ impl<O: PackedObjects> General<O> {
         scratch: &mut Scratch,
     ) {
         let block = (at.what & !Node::BLOCK) as usize;
-        let maps = &self.maps[block];
+        let (maps, boxes) = (&self.maps[block], self.boxes.get(block));
         let Scratch { states, spans, best, lists, pairs, steps, .. } = scratch;
         let list = &lists[at.first as usize..(at.first + at.len) as usize];
         for ids in list.chunks(S::LANES) {
             let (mut limits, mut changed) = ([TraversalState::DONE; ROW], 0u32);
             if O::Blocks::takes_pairs::<S>() {
                 pairs.len = 0;
-                s.apart(Along { maps, states, ids, pairs: Some(&mut *pairs) });
+                s.apart(Along { maps, boxes, states, ids, pairs: Some(&mut *pairs) });
                 steps.candidates += pairs.len as u64;
                 steps.tests += pairs.len as u64;
                 if pairs.len == 0 {
@@ -150,7 +150,7 @@ impl<O: PackedObjects> General<O> {
                     }
                 }
             } else {
-                let masks = s.apart(Along { maps, states, ids, pairs: None });
+                let masks = s.apart(Along { maps, boxes, states, ids, pairs: None });
                 for (lane, (candidates, id)) in masks.into_iter().zip(ids).enumerate() {
                     if candidates == 0 {
                         continue;

@@ -240,6 +240,25 @@ proptest! {
 }
 
 #[test]
+fn boxes_let_fewer_candidates_pass() {
+    struct Tests<'a>(&'a [Ray], Storage);
+    impl<'s> WithObjects<'s> for Tests<'_> {
+        type Out = u64;
+        fn objects<O: PackedObjects + 's>(self, objects: O) -> u64 {
+            let settings = Settings { simd: Level::Portable, exact_split: MAX_EXACT_SPLIT, storage: self.1 };
+            General::new(&objects, settings, Cancel::NEVER).unwrap().count(self.0, false).tests
+        }
+    }
+    let scene = scene(triangles(7, 5000, 1.0, Vec3::ZERO));
+    for rays in [rays(7, 500, 1.0, Vec3::ZERO), bundles(7, 500)] {
+        let tests =
+            |storage| primitives::with_objects(&scene, KernelId::MollerTrumbore, Tests(&rays, storage));
+        let (boxes, all) = (tests(Storage::Boxes), tests(Storage::Scene));
+        assert!(boxes < all / 10 * 7, "{boxes} of {all}");
+    }
+}
+
+#[test]
 fn neighbours_are_taken_together() {
     struct Steps<'a>(&'a [Ray]);
     impl<'s> WithObjects<'s> for Steps<'_> {

@@ -3,14 +3,12 @@
 mod all;
 
 use super::General;
+use super::state::{MIN, TraversalState};
 use super::tree::{Node, WIDTH};
 use accel::grid::Segment;
-use accel::tolerance::{LIMIT_S, PARALLEL};
+use accel::tolerance::LIMIT_S;
 use accel::{Nearest, Ray};
 use lanes::{Blocks, PackedObjects, ROW, Simd};
-
-/// A component of the way is at least this long, so that its reciprocal is finite and no product is NaN.
-pub(super) const MIN: f32 = PARALLEL as f32;
 
 /// A ray in the unit coordinates of the scene, as `start + s·delta` with s from 0 to 1.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +25,13 @@ impl ClippedSegment {
         let delta = [at_least(x), at_least(y), at_least(z)];
         let inverse = [1.0 / delta[0], 1.0 / delta[1], 1.0 / delta[2]];
         Self { start: segment.start.to_array(), delta, inverse }
+    }
+
+    /// As blocks need it, with the place up to which objects must be looked at.
+    #[inline(always)]
+    fn state(&self, limit: f32) -> TraversalState {
+        let ([x, y, z], [dx, dy, dz]) = (self.start, self.inverse);
+        TraversalState { start: [x, y, z, limit], inverse: [dx, dy, dz, limit] }
     }
 
     #[inline(always)]
@@ -124,7 +129,11 @@ impl<O: PackedObjects> General<O> {
             }
             let exit = if exit < limit { exit } else { limit };
             let block = (what & !Node::BLOCK) as usize;
-            let candidates = self.maps[block].candidates(s, clipped.at(enter), clipped.at(exit));
+            let maps = &self.maps[block];
+            let mut candidates = maps.candidates(s, clipped.at(enter), clipped.at(exit));
+            if let Some(boxes) = self.boxes.get(block) {
+                candidates = boxes.met_by(s, maps, [&clipped.state(limit); 2], candidates);
+            }
             if candidates != 0 {
                 if ANY {
                     if self.objects.any(s, block, candidates, &prepared, ray.t_max) {

@@ -63,6 +63,12 @@ impl Simd for Avx2 {
         })
     }
     #[inline(always)]
+    fn load_bytes_as_floats(self, from: &[u8]) -> Self::F {
+        let from = &from[..8];
+        // SAFETY: the token proves the feature; the slice has 8 bytes.
+        unsafe { _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(from.as_ptr().cast()))) }
+    }
+    #[inline(always)]
     fn load_short(self, from: &[u16]) -> Self::F {
         let from = &from[..8];
         // SAFETY: the token proves the feature; the slice has 8 short integers.

@@ -11,7 +11,7 @@ pub struct Avx512(());
 
 entered!(
     Avx512,
-    "avx512f" "avx512bw" "avx512dq" "avx512vl" "avx512vbmi2" "avx2" "bmi1" "bmi2" "lzcnt" "popcnt"
+    "avx512f" "avx512bw" "avx512dq" "avx512vl" "avx512vbmi" "avx512vbmi2" "avx2" "bmi1" "bmi2" "lzcnt" "popcnt"
 );
 
 impl Simd for Avx512 {
@@ -125,6 +125,29 @@ impl Simd for Avx512 {
             let (low, high) = (_mm512_permutex2var_ps(a, at, b), _mm512_permutex2var_ps(c, at, d));
             _mm512_mask_blend_ps(upper, low, high)
         })
+    }
+    #[inline(always)]
+    fn load_bytes_as_floats(self, from: &[u8]) -> Self::F {
+        let from = &from[..16];
+        // SAFETY: the token proves the features; the slice has 16 bytes.
+        unsafe { _mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128(from.as_ptr().cast()))) }
+    }
+    #[inline(always)]
+    fn lookup_bytes(self, table: &[u8; 64], at: Self::U) -> Self::F {
+        const LOWEST: u64 = 0x1111_1111_1111_1111;
+        // SAFETY: the token proves the features; the table has 64 bytes.
+        unsafe {
+            let table = _mm512_loadu_epi8(table.as_ptr().cast());
+            _mm512_cvtepi32_ps(_mm512_maskz_permutexvar_epi8(LOWEST, at, table))
+        }
+    }
+    #[inline(always)]
+    fn compress(self, bits: u64, from: &[u8; 64], to: &mut [u8; 64]) {
+        // SAFETY: the token proves the features; both arrays have 64 bytes.
+        unsafe {
+            let from = _mm512_loadu_epi8(from.as_ptr().cast());
+            _mm512_storeu_epi8(to.as_mut_ptr().cast(), _mm512_maskz_compress_epi8(bits, from));
+        }
     }
     #[inline(always)]
     fn permute(self, v: Self::F, at: Self::U) -> Self::F {

@@ -207,6 +207,39 @@ pub trait Simd: Copy + Send + Sync + 'static {
         self.load(&found)
     }
 
+    /// The first `LANES` bytes as floats.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    #[inline(always)]
+    fn load_bytes_as_floats(self, from: &[u8]) -> Self::F {
+        let mut values = [0.0; ROW];
+        for (value, byte) in values.iter_mut().zip(&from[..Self::LANES]) {
+            *value = f32::from(*byte);
+        }
+        self.load(&values)
+    }
+
+    /// What a table of bytes holds at these places, each below 64, as floats.
+    #[inline(always)]
+    fn lookup_bytes(self, table: &[u8; 64], at: Self::U) -> Self::F {
+        let (mut places, mut values) = ([0; ROW], [0.0; ROW]);
+        self.store_u(at, &mut places);
+        for (value, place) in values.iter_mut().zip(places).take(Self::LANES) {
+            *value = f32::from(table[place as usize % 64]);
+        }
+        self.load(&values)
+    }
+
+    /// Writes the bytes whose bits are set to the front of `to`; what comes after them is anything.
+    #[inline(always)]
+    fn compress(self, mut bits: u64, from: &[u8; 64], to: &mut [u8; 64]) {
+        for to in to.iter_mut().take(bits.count_ones() as usize) {
+            *to = from[bits.trailing_zeros() as usize];
+            bits &= bits - 1;
+        }
+    }
+
     /// The lanes of `v` whose numbers `at` holds; only their lowest bits count.
     #[inline(always)]
     fn permute(self, v: Self::F, at: Self::U) -> Self::F {

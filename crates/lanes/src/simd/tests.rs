@@ -86,6 +86,41 @@ fn all_levels_compute_the_same_bits() {
     }
 }
 
+/// Bytes as floats in order and at places, and those whose bits are set.
+struct Bytes(u64, [u8; 64]);
+
+impl Task for Bytes {
+    type Out = (Vec<f32>, Vec<f32>, Vec<u8>);
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> Self::Out {
+        let Self(bits, bytes) = self;
+        let (mut floats, mut found) = ([0.0; 64], [0.0; 64]);
+        for at in (0..64).step_by(S::LANES) {
+            let places: [u8; 64] = std::array::from_fn(|i| (bits >> i) as u8 % 64);
+            s.store(s.load_bytes_as_floats(&bytes[at..]), &mut floats[at..]);
+            s.store(s.lookup_bytes(&bytes, s.load_bytes(&places[at..])), &mut found[at..]);
+        }
+        let mut kept = [0; 64];
+        s.compress(bits, &bytes, &mut kept);
+        (floats.to_vec(), found.to_vec(), kept[..bits.count_ones() as usize].to_vec())
+    }
+}
+
+#[test]
+fn bytes_are_the_same_at_every_level() {
+    for bits in [0, u64::MAX, 0x8000_0000_0000_0001, 0x0123_4567_89ab_cdef] {
+        let bytes = std::array::from_fn(|i| (i * 37 + 11) as u8);
+        let floats: Vec<f32> = bytes.iter().map(|byte| f32::from(*byte)).collect();
+        let at = |i: usize| floats[(bits >> i) as usize % 64];
+        let kept = (0..64).filter(|i| bits >> i & 1 != 0).map(|i: usize| bytes[i]).collect();
+        let expected = (floats.clone(), (0..64).map(at).collect(), kept);
+        for level in Level::here() {
+            assert_eq!(level.run(Bytes(bits, bytes)), expected, "{level:?}");
+        }
+    }
+}
+
 /// Numbers of set bits, and ids sorted to lists.
 struct Sorted(u64);
 

@@ -35,7 +35,7 @@ pub fn structure(numbers: &mut impl Numbers, kernel: KernelId, finest: u32) -> S
         }
         _ => {
             let exact_split = numbers.one_of(&["", ",exact_split=64", ",exact_split=256"]);
-            let geometry = numbers.one_of(&["", ",geometry=scene", ",geometry=rows"]);
+            let geometry = numbers.one_of(&["", ",geometry=scene", ",geometry=rows", ",geometry=boxes"]);
             let tile = numbers.one_of(&["", ",tile=1", ",tile=16"]);
             let depth = numbers.one_of(&["", ",depth_bits=0", ",depth_bits=8"]);
             let large = numbers.one_of(&["", ",large=1", ",large=65536"]);
