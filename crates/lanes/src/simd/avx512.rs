@@ -5,7 +5,7 @@ use super::{Lists, ROW, Row, SHARE, Simd, Task, entered, intrinsic, registers};
 use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
 
-/// Proof that AVX-512 F, BW, DQ, VL and VBMI2 are present: only [`run`] makes one.
+/// Proof that AVX-512 F, BW, DQ, VL, VBMI and VBMI2 are present: only [`run`] makes one.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx512(());
 

@@ -331,7 +331,7 @@ pub enum Level {
     Portable,
     /// x86-64 with AVX2, BMI1, BMI2, LZCNT and POPCNT.
     Avx2,
-    /// x86-64 with all of that and AVX-512 F, BW, DQ, VL and VBMI2: Intel's processors since Ice Lake, AMD's since Zen 4.
+    /// x86-64 with all of that and AVX-512 F, BW, DQ, VL, VBMI and VBMI2: Intel's processors since Ice Lake, AMD's since Zen 4.
     Avx512,
     /// aarch64, where it is always present.
     Neon,
