@@ -37,7 +37,7 @@ fn sanitized(sanitizer: &str, triple: &str) -> Command {
 fn miri() -> Command {
     let mut command = nightly();
     // Left to itself, it rounds powers of two at random: tests that are made of them would fail.
-    let flags = "-Zmiri-disable-isolation -Zmiri-deterministic-floats";
+    let flags = "-Zmiri-disable-isolation -Zmiri-deterministic-floats -Zmiri-tree-borrows";
     command.args(["miri", "test", "--lib"]).args(FOR_MIRI.map(|package| format!("-p{package}")));
     command.env("PROPTEST_CASES", "4").env("MIRIFLAGS", flags);
     command

@@ -5,7 +5,7 @@ use super::{RasterMaps, THICKNESS};
 use accel::parallel::map_chunks;
 use accel::{Common, Count, Counters, Hit, Nearest, NoCount};
 use lanes::packet::{NearestPacket, Packet};
-use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Shared, Simd, Task, Tile};
+use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Shared, Simd, Task, Tile, prefetch};
 use std::ops::Range;
 
 /// Pixels where two slices meet.
@@ -195,6 +195,12 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
                 if patience == 0 {
                     patience = PATIENCE;
                     farthest = self.farthest(s);
+                }
+                if seen != 0 {
+                    let next = i * 64 + seen.trailing_zeros() as usize;
+                    maps.geometry.prefetch(next);
+                    let words = maps.blocks[next].words as usize;
+                    maps.words[words..].first().map(prefetch);
                 }
                 count.blocks(1);
                 let words = &maps.words[block.words as usize..][..block.len()];
