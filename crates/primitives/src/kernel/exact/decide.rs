@@ -72,10 +72,15 @@ impl Decisions {
         let off = (t_error + quotient.abs() * error) * reciprocal.abs() * 1.001
             + quotient.abs() * (4.0 * f64::EPSILON);
         let firm = error * 2048.0 < det.abs();
+        // In one plane with the ray's origin that is perpendicular to an axis, t is zero without any error.
+        let starts_on = (0..3).fold(false, |on, axis| {
+            on | ((edges[0][axis] == 0.0) & (edges[1][axis] == 0.0) & (from_a[axis] == 0.0))
+        });
+        let (quotient, off) = if starts_on { (0.0, 0.0) } else { (quotient, off) };
         // Adding zero makes −0 a +0.
         let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
         // At an end of the range, the rounded t doesn't tell on which side the true one lies.
-        let clear = (low == high) & (low != ray.t_min) & (low != ray.t_max);
+        let clear = (low == high) & (starts_on | ((low != ray.t_min) & (low != ray.t_max)));
         // Rounding keeps order: t is out of the range if what it is rounded to at least or at most is.
         let missed = missed | (firm & ((high < ray.t_min) | (ray.t_max < low)));
         let uncertain = if firm & clear { 3.0 } else { 2.0 };

@@ -15,6 +15,9 @@
 //! comparisons. With 2^-30 ≤ D ≤ 2^30 and coordinates up to 2^41 nothing overflows, and underflows
 //! add less than [`TINY`] to each. Beyond those sizes D or L counts as infinite, and nothing is certain.
 //!
+//! **Rays that start on a triangle.** Where the origin and all corners have the same coordinate on an axis, scaled t is zero
+//! without error, and so is t if the determinant is not. Rays that leave a floor or a wall are like that.
+//!
 //! **t itself.** Let T and d be scaled t and the determinant as computed, T + τ and d + δ the true ones, and q the quotient
 //! T/d as computed, off by 3ε|q| or by the least normal float. The true t is off T/d by (τ − δT/d)/(d + δ), at most
 //! (|τ| + |T/d|·|δ|)/|d| · 16/15 where |δ| < |d|/16. The bounds of t add that, with a margin for its own rounding and that of q.
@@ -91,6 +94,7 @@ fn largest3<S: Simd>(s: S, v: Vec3Lanes<S>) -> S::F {
 /// What the test of a lane is made of.
 #[derive(Clone, Copy)]
 struct Parts<S: Simd> {
+    edge1: Vec3Lanes<S>,
     edge2: Vec3Lanes<S>,
     from_a: Vec3Lanes<S>,
     /// Direction × second edge.
@@ -138,6 +142,7 @@ pub(super) fn bounds<S: Simd>(
     let from_a = sub3(s, ray.origin, a);
     let p = cross3(s, ray.direction, edge2);
     let parts = Parts {
+        edge1,
         edge2,
         from_a,
         p,
@@ -194,6 +199,7 @@ pub(super) fn bounds_prepared<S: Simd>(
         Common::Direction(_) => {
             let from_a = sub3(s, ray.origin, splat_row3(s, &group[0..3], lane));
             Parts {
+                edge1,
                 edge2,
                 from_a,
                 p: splat_row3(s, &rows[6..9], lane),
@@ -206,6 +212,7 @@ pub(super) fn bounds_prepared<S: Simd>(
         Common::Origin(_) => {
             let p = cross3(s, ray.direction, edge2);
             Parts {
+                edge1,
                 edge2,
                 from_a: splat_row3(s, &rows[6..9], lane),
                 p,
@@ -233,7 +240,7 @@ fn known<S: Simd>(
     wanted: u32,
     t_max: S::F,
 ) -> Bounds<S> {
-    let Parts { edge2, from_a, p, q, det, length, distance } = *parts;
+    let Parts { edge1, edge2, from_a, p, q, det, length, distance } = *parts;
     let u = dot3(s, from_a, p);
     let v = dot3(s, ray.direction, q);
     let w = s.sub(s.sub(det, u), v);
@@ -263,11 +270,20 @@ fn known<S: Simd>(
     let rounding = s.add(s.mul(size_of_t, s.splat(ROUNDING)), s.splat(f32::MIN_POSITIVE));
     let off = s.add(s.mul(off, s.splat(MARGIN)), rounding);
     let firm = s.lt(s.mul(det_error, s.splat(FIRM)), s.abs(det));
+    // Where origin and corners lie in one plane that is perpendicular to an axis, t is zero without any error.
+    let mut starts_on = s.mask(0);
+    for axis in 0..3 {
+        let apart = s.add(s.add(s.abs(edge1[axis]), s.abs(edge2[axis])), s.abs(from_a[axis]));
+        starts_on = s.or(starts_on, s.eq(apart, zero));
+    }
+    let starts_on = s.and(starts_on, firm);
     let low = s.select(firm, s.sub(t, off), s.sub(zero, infinity));
     let high = s.select(firm, s.add(t, off), infinity);
+    let (low, high) = (s.select(starts_on, zero, low), s.select(starts_on, zero, high));
     let gone = s.or(s.lt(t_max, low), s.lt(high, ray.t_min));
     let undecided = s.mask(s.bits(undecided) & !s.bits(gone));
     let certain = s.or(s.lt(error, least), s.lt(greatest, minus_error));
-    let certain = s.and(s.and(certain, undecided), s.lt(s.max(ray.t_min, s.splat(f32::MIN_POSITIVE)), low));
+    let in_range = s.lt(s.max(ray.t_min, s.splat(f32::MIN_POSITIVE)), low);
+    let certain = s.and(s.and(certain, undecided), s.or(in_range, starts_on));
     Bounds { undecided, certain, low, high }
 }
