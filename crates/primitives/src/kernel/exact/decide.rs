@@ -11,6 +11,9 @@ use lanes::{ROW, Simd};
 
 const BOUND: f64 = 64.0 * f64::EPSILON / 2.0;
 
+/// Of the sum of the sizes of the six products that scaled t is made of: each has eight roundings.
+const T_BOUND: f64 = 16.0 * f64::EPSILON / 2.0;
+
 /// Up to so many lanes are decided one by one.
 const FEW: u32 = 2;
 
@@ -59,7 +62,8 @@ impl Decisions {
         let size = from_a[0].abs() + from_a[1].abs() + from_a[2].abs() + length;
         let area = length * size * BOUND;
         let error = area * largest(direction);
-        let t_error = area * length;
+        let t_size = volume_of_sizes(edges[1], from_a, edges[0]);
+        let t_error = t_size * T_BOUND;
         let w = det - u - v;
         let (least, greatest) = (least3(u, v, w), greatest3(u, v, w));
         let missed = (error < greatest) & (least < -error);
@@ -72,11 +76,8 @@ impl Decisions {
         let off = (t_error + quotient.abs() * error) * reciprocal.abs() * 1.001
             + quotient.abs() * (4.0 * f64::EPSILON);
         let firm = error * 2048.0 < det.abs();
-        // In one plane with the ray's origin that is perpendicular to an axis, t is zero without any error.
-        let starts_on = (0..3).fold(false, |on, axis| {
-            on | ((edges[0][axis] == 0.0) & (edges[1][axis] == 0.0) & (from_a[axis] == 0.0))
-        });
-        let (quotient, off) = if starts_on { (0.0, 0.0) } else { (quotient, off) };
+        // Without any product, as where origin and corners have one coordinate in common, t is zero without error.
+        let starts_on = t_size == 0.0;
         // Adding zero makes −0 a +0.
         let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
         // At an end of the range, the rounded t doesn't tell on which side the true one lies.
@@ -141,6 +142,13 @@ fn in_range(ray: &Ray, corners: &Corners) -> Option<[f32; 3]> {
 }
 
 // As comparisons, for `f64::min` and `max` treat NaN at the cost of more instructions.
+
+/// The sum of the sizes of the products that the determinant of three vectors is made of.
+#[inline(always)]
+fn volume_of_sizes(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    let part = |i: usize, j: usize, k: usize| (a[i] * (b[j] * c[k])).abs() + (a[i] * (b[k] * c[j])).abs();
+    part(0, 1, 2) + part(1, 2, 0) + part(2, 0, 1)
+}
 
 #[inline(always)]
 fn greater(a: f64, b: f64) -> f64 {

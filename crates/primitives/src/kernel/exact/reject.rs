@@ -8,10 +8,11 @@
 //!   the relative origin: at most 2DLS in all, each with at most 7 factors. Off by 14ε·DLS.
 //! - The determinant likewise: at most 6DL², off by 42ε·DL².
 //! - w = det − u − v adds their errors and two roundings: 34ε·DLS + 54ε·DL².
-//! - Scaled t is a sum of at most 2L²S with 8 factors each: off by 16ε·L²S.
+//! - Scaled t is a sum of six products of a component each of both edges and the relative origin, each with at most 8 factors: off
+//!   by 8ε of the sum V of their sizes.
 //!
 //! With U = 18ε·L(S + 1.5L), u and v are off by less than DU, w and the determinant by less than 2.5DU, scaled t by
-//! less than LU, the margin of an eighth covering second-order terms, the rounding of the bounds themselves and that of the
+//! less than 10ε·V, the margin of an eighth or more covering second-order terms, the rounding of the bounds themselves and that of the
 //! comparisons. With 2^-30 ≤ D ≤ 2^30 and coordinates up to 2^41 nothing overflows, and underflows
 //! add less than [`TINY`] to each. Beyond those sizes D or L counts as infinite, and nothing is certain.
 //!
@@ -31,6 +32,9 @@ use lanes::{Row, Scalar, Simd};
 
 /// 18ε
 const BOUND: f32 = 18.0 * f32::EPSILON / 2.0;
+
+/// 10ε
+const T_BOUND: f32 = 10.0 * f32::EPSILON / 2.0;
 
 /// How much less certain than u and v the determinant and w are; a power of two would be too much.
 const OF_DET: f32 = 2.5;
@@ -226,6 +230,17 @@ pub(super) fn bounds_prepared<S: Simd>(
     known(s, ray, span, &parts, u32::MAX, t_max)
 }
 
+/// The sum of the sizes of the products that the determinant of three vectors is made of.
+#[inline(always)]
+fn volume_of_sizes<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>, c: Vec3Lanes<S>) -> S::F {
+    let mut sum = s.splat(0.0);
+    for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
+        let sizes = s.add(s.abs(s.mul(b[j], c[k])), s.abs(s.mul(b[k], c[j])));
+        sum = s.add(sum, s.mul(s.abs(a[i]), sizes));
+    }
+    sum
+}
+
 #[inline(always)]
 fn distance<S: Simd>(s: S, from_a: Vec3Lanes<S>) -> S::F {
     s.add(s.add(s.abs(from_a[0]), s.abs(from_a[1])), s.abs(from_a[2]))
@@ -264,7 +279,7 @@ fn known<S: Simd>(
     let det_error = s.mul(error, s.splat(OF_DET));
     let reciprocal = s.div(s.splat(1.0), det);
     let t = s.mul(dot3(s, edge2, q), reciprocal);
-    let t_error = s.add(s.mul(unit, length), s.splat(TINY));
+    let t_error = s.add(s.mul(volume_of_sizes(s, edge2, from_a, edge1), s.splat(T_BOUND)), s.splat(TINY));
     let size_of_t = s.abs(t);
     let off = s.mul(s.add(t_error, s.mul(size_of_t, det_error)), s.abs(reciprocal));
     let rounding = s.add(s.mul(size_of_t, s.splat(ROUNDING)), s.splat(f32::MIN_POSITIVE));
