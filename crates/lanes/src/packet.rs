@@ -235,7 +235,7 @@ impl LaneRows {
 pub struct Bounds<S: Simd> {
     /// Which lanes may hit within their range of t.
     pub undecided: S::M,
-    /// Which of them certainly hit, at a normal t above the ray's `t_min` or at zero itself.
+    /// Which of them certainly hit, at a normal t above the ray's `t_min`.
     pub certain: S::M,
     /// What hits does so at this t or above.
     pub low: S::F,

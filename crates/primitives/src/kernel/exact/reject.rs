@@ -16,9 +16,6 @@
 //! comparisons. With 2^-30 ≤ D ≤ 2^30 and coordinates up to 2^41 nothing overflows, and underflows
 //! add less than [`TINY`] to each. Beyond those sizes D or L counts as infinite, and nothing is certain.
 //!
-//! **Rays that start on a triangle.** Where the origin and all corners have the same coordinate on an axis, scaled t is zero
-//! without error, and so is t if the determinant is not. Rays that leave a floor or a wall are like that.
-//!
 //! **t itself.** Let T and d be scaled t and the determinant as computed, T + τ and d + δ the true ones, and q the quotient
 //! T/d as computed, off by 3ε|q| or by the least normal float. The true t is off T/d by (τ − δT/d)/(d + δ), at most
 //! (|τ| + |T/d|·|δ|)/|d| · 16/15 where |δ| < |d|/16. The bounds of t add that, with a margin for its own rounding and that of q.
@@ -285,20 +282,11 @@ fn known<S: Simd>(
     let rounding = s.add(s.mul(size_of_t, s.splat(ROUNDING)), s.splat(f32::MIN_POSITIVE));
     let off = s.add(s.mul(off, s.splat(MARGIN)), rounding);
     let firm = s.lt(s.mul(det_error, s.splat(FIRM)), s.abs(det));
-    // Where origin and corners lie in one plane that is perpendicular to an axis, t is zero without any error.
-    let mut starts_on = s.mask(0);
-    for axis in 0..3 {
-        let apart = s.add(s.add(s.abs(edge1[axis]), s.abs(edge2[axis])), s.abs(from_a[axis]));
-        starts_on = s.or(starts_on, s.eq(apart, zero));
-    }
-    let starts_on = s.and(starts_on, firm);
     let low = s.select(firm, s.sub(t, off), s.sub(zero, infinity));
     let high = s.select(firm, s.add(t, off), infinity);
-    let (low, high) = (s.select(starts_on, zero, low), s.select(starts_on, zero, high));
     let gone = s.or(s.lt(t_max, low), s.lt(high, ray.t_min));
     let undecided = s.mask(s.bits(undecided) & !s.bits(gone));
     let certain = s.or(s.lt(error, least), s.lt(greatest, minus_error));
-    let in_range = s.lt(s.max(ray.t_min, s.splat(f32::MIN_POSITIVE)), low);
-    let certain = s.and(s.and(certain, undecided), s.or(in_range, starts_on));
+    let certain = s.and(s.and(certain, undecided), s.lt(s.max(ray.t_min, s.splat(f32::MIN_POSITIVE)), low));
     Bounds { undecided, certain, low, high }
 }
