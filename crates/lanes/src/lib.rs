@@ -1,5 +1,5 @@
 //! Lanes of `f32` whose instruction set is chosen at run time, and what is made of them: packets
-//! of rays, bit maps along a path, and objects packed in blocks of 64.
+//! of rays, bit maps along a path, objects packed in blocks of 64, and the splits that put them there.
 
 mod bits;
 mod blocks;

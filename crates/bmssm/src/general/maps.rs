@@ -2,8 +2,7 @@
 
 use accel::tolerance::LOCAL_MARGIN;
 use lanes::path::{Hull, Path, SLICES};
-use lanes::split::Item;
-use lanes::split::UnitBox;
+use lanes::split::{Item, UnitBox};
 use lanes::{BLOCK, Simd};
 
 /// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be

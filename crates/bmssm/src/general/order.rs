@@ -9,8 +9,7 @@ use crate::id::ID;
 use accel::parallel::extend;
 use accel::parallel::prelude::*;
 use accel::{BuildError, Cancel, concatenated, filled};
-use lanes::split::{Divide, Left, Scratch, Shape};
-use lanes::split::{Extremes, Item};
+use lanes::split::{Divide, Extremes, Item, Left, Scratch, Shape};
 use lanes::{BLOCK, EMPTY_SLOT, Level, Simd, Task};
 
 /// The objects in order, block by block.

@@ -6,9 +6,7 @@
 use crate::id::ID;
 use accel::parallel::prelude::*;
 use accel::{BuildError, filled};
-use lanes::split::UnitBox;
-use lanes::split::{Divide, Left, Scratch, Shape};
-use lanes::split::{Extremes, Item};
+use lanes::split::{Divide, Extremes, Item, Left, Scratch, Shape, UnitBox};
 use lanes::{Level, ROW, Row};
 
 /// Most children of a node.

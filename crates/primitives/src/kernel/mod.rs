@@ -190,5 +190,11 @@ pub(crate) fn dot3<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> S::F {
     s.add(s.add(s.mul(a[0], b[0]), s.mul(a[1], b[1])), s.mul(a[2], b[2]))
 }
 
+/// The sum of the sizes of the components.
+#[inline(always)]
+pub(crate) fn size3<S: Simd>(s: S, v: Vec3Lanes<S>) -> S::F {
+    s.add(s.add(s.abs(v[0]), s.abs(v[1])), s.abs(v[2]))
+}
+
 #[cfg(test)]
 mod tests;

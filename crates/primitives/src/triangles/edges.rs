@@ -4,7 +4,7 @@
 //! Across a raster an edge function is linear in column and row. So it is greatest in one of a cell's corners, and where it is
 //! below zero even there, the whole cell is outside of the edge. Sixteen triangles are held against a cell at once.
 
-use crate::kernel::{EdgeError, cross3, dot3, sub3};
+use crate::kernel::{EdgeError, cross3, dot3, size3, sub3};
 use accel::tolerance::{CORNERS, EDGE, EDGE_UNDERFLOW};
 use accel::{Projection, Vec3};
 use lanes::packet::{Vec3Lanes, splat3};
@@ -23,7 +23,8 @@ pub(super) struct TileRays {
     /// From one column to the next, and from one row to the next.
     right: Vec3,
     down: Vec3,
-    /// Sum of the greatest sizes of a direction's components, and of the terms that make an origin.
+    /// Sum of the greatest sizes of a direction's components, and of the terms that make an origin and its way from the middle
+    /// one.
     direction_size: f32,
     origin_size: f32,
     half: [f32; 2],
@@ -40,8 +41,11 @@ impl TileRays {
         let offset = right * x + down * y;
         let sizes = right.abs() * (x + half[0]) + down.abs() * (y + half[1]);
         let size = |fixed: Vec3| fixed.abs().element_sum();
+        let change = size(right) * half[0] + size(down) * half[1];
         let (origin, direction, origin_size, direction_size) = match raster.projection {
-            Projection::Parallel => (origin + offset, forward, size(origin) + size(sizes), size(forward)),
+            Projection::Parallel => {
+                (origin + offset, forward, size(origin) + size(sizes) + change, size(forward))
+            }
             Projection::Perspective => (origin, forward + offset, 0.0, size(forward) + size(sizes)),
         };
         let projection = raster.projection;
@@ -104,7 +108,7 @@ pub(super) fn prepare<S: Simd>(
             Linear::of(s, rays, direction, cross3(s, edge2, edge1)),
         ),
     };
-    let slack = slack(s, rays, error, size(s, from_a), s.add(size(s, edge1), size(s, edge2)));
+    let slack = slack(s, rays, error, size3(s, from_a), s.add(size3(s, edge1), size3(s, edge2)));
     // Which side is the inner one depends on the sign of the sum, which has to be the same in the whole tile.
     let least = s.add(sum.change(s, rays.half), slack);
     let (front, back) = (s.lt(least, sum.value), s.lt(sum.value, s.sub(s.splat(0.0), least)));
@@ -130,22 +134,11 @@ pub(super) fn prepare<S: Simd>(
     s.and(known, outside)
 }
 
-/// The sum of the sizes of the components.
-#[inline(always)]
-fn size<S: Simd>(s: S, [x, y, z]: Vec3Lanes<S>) -> S::F {
-    s.add(s.add(s.abs(x), s.abs(y)), s.abs(z))
-}
-
 /// By how much an edge function may be wrong, for triangles with edges of this size whose first corner is so far from the origin.
 #[inline(always)]
 fn slack<S: Simd>(s: S, rays: &TileRays, error: EdgeError, way: S::F, edges: S::F) -> S::F {
     let direction = s.splat(rays.direction_size);
-    let change = rays.right.abs().element_sum() * rays.half[0] + rays.down.abs().element_sum() * rays.half[1];
-    let way = match rays.projection {
-        Projection::Parallel => s.add(way, s.splat(rays.origin_size + change)),
-        Projection::Perspective => way,
-    };
-    let way = s.add(way, edges);
+    let way = s.add(s.add(way, s.splat(rays.origin_size)), edges);
     let (part, other) = match error {
         EdgeError::Edge => (EDGE, edges),
         EdgeError::Corners => (CORNERS, way),

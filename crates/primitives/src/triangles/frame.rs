@@ -3,7 +3,7 @@
 use crate::kernel::{store_rows, sub3};
 use accel::tolerance::{NEAR, holds, pad_of};
 use accel::{Aabb, Common, Corners, Ray, Vec3};
-use lanes::packet::{Packet, Vec3Lanes};
+use lanes::packet::{Packet, Vec3Lanes, splat3};
 use lanes::{Row, Simd};
 
 /// What the hit-in-padded-bounds invariant of [`accel::Objects`] needs to know of the whole mesh, and the scale at which
@@ -134,19 +134,12 @@ impl Limits {
     pub(super) fn store<S: Simd>(
         s: S,
         frame: &Frame,
-        [a, b, c]: [Vec3Lanes<S>; 3],
+        corners: [Vec3Lanes<S>; 3],
         rows: &mut [Row],
         at: usize,
     ) {
-        let half = s.splat(frame.pad * 0.5);
-        let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
-        let zero = s.splat(0.0);
-        let (mut low, mut high) = (edge1, edge1);
-        for axis in 0..3 {
-            low[axis] = s.sub(s.min(s.min(edge1[axis], edge2[axis]), zero), half);
-            high[axis] = s.add(s.max(s.max(edge1[axis], edge2[axis]), zero), half);
-        }
-        store_rows(s, a, &mut rows[0..3], at);
+        let LimitLanes { first, low, high } = LimitLanes::of(s, frame, corners);
+        store_rows(s, first, &mut rows[0..3], at);
         store_rows(s, low, &mut rows[3..6], at);
         store_rows(s, high, &mut rows[6..9], at);
     }
@@ -159,36 +152,44 @@ impl Limits {
         Self { first: at(0), low: at(3), high: at(6) }
     }
 
-    /// [`Frame::plainly_holds`] for triangles and rays in lanes: whether that holds for sure.
-    #[inline(always)]
-    pub(super) fn plainly_hold<S: Simd>(
-        s: S,
-        frame: &Frame,
-        [a, b, c]: [Vec3Lanes<S>; 3],
-        rays: &Packet<S>,
-        t: S::F,
-    ) -> S::M {
-        let (half, zero) = (s.splat(frame.pad * 0.5), s.splat(0.0));
-        let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
-        let mut all = s.mask(u32::MAX);
-        for axis in 0..3 {
-            let position = s.add(s.sub(rays.origin[axis], a[axis]), s.mul(rays.direction[axis], t));
-            let low = s.sub(s.min(s.min(edge1[axis], edge2[axis]), zero), half);
-            let high = s.add(s.max(s.max(edge1[axis], edge2[axis]), zero), half);
-            all = s.and(all, s.and(s.le(low, position), s.le(position, high)));
-        }
-        all
-    }
-
     /// The rays whose position at t lies within. Where those at two t's do, so do all between, for rounding keeps order.
     #[inline(always)]
     pub(super) fn hold<S: Simd>(&self, s: S, rays: &Packet<S>, t: S::F) -> S::M {
+        let Self { first, low, high } = *self;
+        LimitLanes { first: splat3(s, first), low: splat3(s, low), high: splat3(s, high) }.hold(s, rays, t)
+    }
+}
+
+/// [`Limits`] of a triangle in each lane.
+#[derive(Clone, Copy)]
+pub(super) struct LimitLanes<S: Simd> {
+    first: Vec3Lanes<S>,
+    low: Vec3Lanes<S>,
+    high: Vec3Lanes<S>,
+}
+
+impl<S: Simd> LimitLanes<S> {
+    /// As [`Limits::of`].
+    #[inline(always)]
+    pub(super) fn of(s: S, frame: &Frame, [a, b, c]: [Vec3Lanes<S>; 3]) -> Self {
+        let (half, zero) = (s.splat(frame.pad * 0.5), s.splat(0.0));
+        let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
+        let mut limits = Self { first: a, low: edge1, high: edge1 };
+        for axis in 0..3 {
+            limits.low[axis] = s.sub(s.min(s.min(edge1[axis], edge2[axis]), zero), half);
+            limits.high[axis] = s.add(s.max(s.max(edge1[axis], edge2[axis]), zero), half);
+        }
+        limits
+    }
+
+    /// As [`Limits::hold`], each ray with the triangle in its lane.
+    #[inline(always)]
+    pub(super) fn hold(&self, s: S, rays: &Packet<S>, t: S::F) -> S::M {
         let mut all = s.mask(u32::MAX);
         for axis in 0..3 {
-            let from_first = s.sub(rays.origin[axis], s.splat(self.first[axis]));
+            let from_first = s.sub(rays.origin[axis], self.first[axis]);
             let position = s.add(from_first, s.mul(rays.direction[axis], t));
-            let (low, high) = (s.splat(self.low[axis]), s.splat(self.high[axis]));
-            all = s.and(all, s.and(s.le(low, position), s.le(position, high)));
+            all = s.and(all, s.and(s.le(self.low[axis], position), s.le(position, self.high[axis])));
         }
         all
     }

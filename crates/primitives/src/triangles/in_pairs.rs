@@ -1,6 +1,6 @@
 //! Rays and triangles in pairs, one in each lane, each decided at once.
 
-use super::frame::Limits;
+use super::frame::LimitLanes;
 use super::pairs::PairRays;
 use super::search::{Candidates, Search};
 use super::{TriangleBlocks, next_lane};
@@ -29,8 +29,8 @@ impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
             if hits == 0 {
                 continue;
             }
-            let plain =
-                s.bits(Limits::plainly_hold(s, frame, group.corners, &group.packet(s, pairs), found.t));
+            let limits = LimitLanes::of(s, frame, group.corners);
+            let plain = s.bits(limits.hold(s, &group.packet(s, pairs), found.t));
             let found = found.rows(s);
             while let Some(lane) = next_lane(&mut hits) {
                 let ((slot, place), surface) = (group.pair(lane), found.surface(lane));

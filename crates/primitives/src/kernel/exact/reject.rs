@@ -22,7 +22,7 @@
 
 use super::LENGTH_ROW;
 use crate::kernel::packed::splat_row3;
-use crate::kernel::{Packed, Prepared, cross3, dot3, store_rows, sub3};
+use crate::kernel::{Packed, Prepared, cross3, dot3, size3, store_rows, sub3};
 use accel::{Common, Corners};
 use lanes::packet::{Bounds, Packet, Vec3Lanes, splat3};
 use lanes::{Row, Scalar, Simd};
@@ -150,7 +150,7 @@ pub(super) fn bounds<S: Simd>(
         q: cross3(s, from_a, edge1),
         det: dot3(s, edge1, p),
         length,
-        distance: distance(s, from_a),
+        distance: size3(s, from_a),
     };
     known(s, ray, span, &parts, wanted, t_max)
 }
@@ -177,7 +177,7 @@ pub(super) fn prepare<S: Simd>(s: S, common: &Common, packed: Packed<'_>, rows: 
             let from_a = sub3(s, splat3(s, *origin), a);
             store_rows(s, from_a, &mut rows[6..9], at);
             store_rows(s, cross3(s, from_a, edge1), &mut rows[9..12], at);
-            s.store(distance(s, from_a), &mut rows[12].0[at..]);
+            s.store(size3(s, from_a), &mut rows[12].0[at..]);
         }
     }
 }
@@ -207,7 +207,7 @@ pub(super) fn bounds_prepared<S: Simd>(
                 q: cross3(s, from_a, edge1),
                 det: s.splat(rows[12].0[lane]),
                 length,
-                distance: distance(s, from_a),
+                distance: size3(s, from_a),
             }
         }
         Common::Origin(_) => {
@@ -236,11 +236,6 @@ fn volume_of_sizes<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>, c: Vec3Lanes
         sum = s.add(sum, s.mul(s.abs(a[i]), sizes));
     }
     sum
-}
-
-#[inline(always)]
-fn distance<S: Simd>(s: S, from_a: Vec3Lanes<S>) -> S::F {
-    s.add(s.add(s.abs(from_a[0]), s.abs(from_a[1])), s.abs(from_a[2]))
 }
 
 #[inline(always)]
