@@ -30,7 +30,7 @@ use order::Order;
 use scene::Scene;
 use scratch::Scratch;
 use trace::Stack;
-use tree::Node;
+use tree::{Fill, Node};
 
 /// Most objects that are split object by object, and how many unless told otherwise.
 pub const MAX_EXACT_SPLIT: usize = order::PART;
@@ -56,6 +56,14 @@ impl Storage {
             Self::Rows => "rows",
             Self::Boxes => "boxes",
             Self::Scene => "scene",
+        }
+    }
+
+    /// Nodes are what is left to save where nothing is copied; elsewhere they are few beside the copies, and full ones cost rays 3 %.
+    const fn fill(self) -> Fill {
+        match self {
+            Self::Rows | Self::Boxes => Fill::Surface,
+            Self::Scene => Fill::Full,
         }
     }
 }
@@ -103,7 +111,7 @@ impl<O: PackedObjects> General<O> {
         let shape = Shape { extent };
         let Order { slots, maps, boxes, blocks } = Order::new(&shape, items, keys, settings, cancel)?;
         let spread = mean_side(&blocks);
-        let nodes = tree::over(&shape, blocks, simd)?;
+        let nodes = tree::over(&shape, blocks, settings.storage.fill(), simd)?;
         cancel.check(ID)?;
         let len = objects.len();
         let objects = match settings.storage {
