@@ -79,7 +79,7 @@ const RASTER_BYTES: u32 = 16 + 52;
 fn exact_split(settings: &Settings, objects: usize, reasons: &mut Vec<String>) -> usize {
     let (exact_split, why) = match settings.exact_split {
         Some(exact_split) => (exact_split, "as set"),
-        None => (general::MAX_EXACT_SPLIT, "the default"),
+        None => (general::EXACT_SPLIT, "the default"),
     };
     reasons.push(format!(
         "{} blocks of up to {BLOCK} objects with {} slices an axis, split by clusters of neighbours down to \

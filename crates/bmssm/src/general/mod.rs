@@ -32,8 +32,11 @@ use scratch::Scratch;
 use trace::Stack;
 use tree::{Fill, Node};
 
-/// Most objects that are split object by object, and how many unless told otherwise.
+/// Most objects that can be split object by object.
 pub const MAX_EXACT_SPLIT: usize = order::PART;
+
+/// How many are unless told otherwise.
+pub const EXACT_SPLIT: usize = MAX_EXACT_SPLIT / 2;
 
 /// Where objects are when rays of any kind are tested with them. Answers are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -313,7 +313,7 @@ impl Task for Cut<'_, '_> {
                 at += 1;
             } else {
                 let to = &mut Scratch { items: &mut to[first..end], marks: &mut *marks };
-                let middle = first + shape.divide(from, to, Left::Whole(BLOCK));
+                let middle = first + shape.divide(s, from, to, Left::Whole(BLOCK));
                 open.push((middle, end, !swapped));
                 open.push((first, middle, !swapped));
             }
