@@ -1,7 +1,7 @@
 //! The binary maps of one block: a bit per object in each slice (Skala 1993, §2, §5).
 
 use accel::tolerance::LOCAL_MARGIN;
-use lanes::path::{Hull, Path, SLICES};
+use lanes::path::{Hull, Path, PathRows, SLICES};
 use lanes::split::{Item, UnitBox};
 use lanes::{BLOCK, Simd};
 
@@ -83,12 +83,18 @@ impl BlockMaps {
         s.path_union([&self.maps[axis], &self.maps[b], &self.maps[c]], &path)
     }
 
-    /// The candidates of a path along which `axis` is the dominant one.
+    /// The candidates of two of the paths, along each of which another axis may be the dominant one.
     #[inline(always)]
-    pub(super) fn along<S: Simd>(&self, s: S, axis: usize, path: &Path) -> u64 {
+    pub(super) fn along<S: Simd>(
+        &self,
+        s: S,
+        axes: [usize; 2],
+        paths: &PathRows,
+        lanes: [usize; 2],
+    ) -> [u64; 2] {
         let maps = &self.maps;
-        let (axis, b, c) = ([0, 1, 2][axis], [1, 2, 0][axis], [2, 0, 1][axis]);
-        s.path_union([&maps[axis], &maps[b], &maps[c]], path)
+        let maps = axes.map(|axis| [&maps[[0, 1, 2][axis]], &maps[[1, 2, 0][axis]], &maps[[2, 0, 1][axis]]]);
+        s.path_unions(maps, paths, lanes)
     }
 
     /// The candidates within a hull that is described along `axis`.

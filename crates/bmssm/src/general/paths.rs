@@ -4,8 +4,8 @@ use super::boxes::{BlockBoxes, LocalRays};
 use super::maps::BlockMaps;
 use super::scratch::PairList;
 use super::state::TraversalState;
-use lanes::path::Path;
-use lanes::{BLOCK, ROW, Simd, Task};
+use lanes::path::PathRows;
+use lanes::{BLOCK, ROW, Row, Simd, Task};
 
 /// The candidates of up to `LANES` rays in a block, R & S & T along the path of each.
 pub(super) struct Along<'a> {
@@ -33,19 +33,26 @@ impl Task for Along<'_> {
         let mut masks = [0; ROW];
         let mut met = paths.met;
         while met != 0 {
-            let lane = met.trailing_zeros() as usize % ROW;
+            // Two at a time, the last one twice.
+            let first = met.trailing_zeros() as usize % ROW;
             met &= met - 1;
-            let candidates = maps.along(s, paths.axes[lane] as usize, &paths.path(lane));
-            if let Some(pairs) = &mut pairs {
-                let slots = pairs.slots[pairs.len..].first_chunk_mut().expect("room for all pairs");
-                pairs.rays[pairs.len..pairs.len + BLOCK].fill(lane as u8);
-                pairs.len += s.set_bits(candidates, slots);
-                continue;
+            let second = if met == 0 { first } else { met.trailing_zeros() as usize % ROW };
+            met &= met.wrapping_sub(1);
+            let lanes = [first, second];
+            let found = maps.along(s, lanes.map(|lane| paths.axes[lane] as usize), &paths.rows, lanes);
+            let len = if first == second { 1 } else { 2 };
+            for (lane, candidates) in lanes.into_iter().zip(found).take(len) {
+                if let Some(pairs) = &mut pairs {
+                    let slots = pairs.slots[pairs.len..].first_chunk_mut().expect("room for all pairs");
+                    pairs.rays[pairs.len..pairs.len + BLOCK].fill(lane as u8);
+                    pairs.len += s.set_bits(candidates, slots);
+                    continue;
+                }
+                masks[lane] = match boxes {
+                    Some(boxes) => boxes.met_by(s, maps, [chosen[lane]; 2], candidates),
+                    None => candidates,
+                };
             }
-            masks[lane] = match boxes {
-                Some(boxes) => boxes.met_by(s, maps, [chosen[lane]; 2], candidates),
-                None => candidates,
-            };
         }
         if let (Some(boxes), Some(pairs)) = (boxes, pairs) {
             boxes.keep_met(s, &local, pairs);
@@ -60,8 +67,7 @@ struct Paths {
     met: u32,
     /// The axis along which each goes farthest.
     axes: [u32; ROW],
-    /// The fields of [`Path`].
-    rows: [[f32; ROW]; 6],
+    rows: PathRows,
 }
 
 impl Paths {
@@ -106,7 +112,7 @@ impl Paths {
         }
         let second = s.lt(size[0], size[1]);
         let third = s.lt(s.max(size[0], size[1]), size[2]);
-        let mut rows = [[0.0; ROW]; 6];
+        let mut rows = PathRows([Row([0.0; ROW]); 6]);
         let mut chosen = [zero; 6];
         for axis in 0..3 {
             let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -133,8 +139,8 @@ impl Paths {
                 };
             }
         }
-        for (row, chosen) in rows.iter_mut().zip(chosen) {
-            s.store(chosen, row);
+        for (row, chosen) in rows.0.iter_mut().zip(chosen) {
+            s.store(chosen, &mut row.0);
         }
         let (second, third) = (s.bits(second), s.bits(third));
         let mut axes = [0; ROW];
@@ -142,16 +148,5 @@ impl Paths {
             *axis = if third >> lane & 1 != 0 { 2 } else { second >> lane & 1 };
         }
         (Self { met, axes, rows }, local)
-    }
-
-    #[inline(always)]
-    fn path(&self, lane: usize) -> Path {
-        let [low, high, b, c, slope_b, slope_c] = &self.rows;
-        Path {
-            low: low[lane],
-            high: high[lane],
-            start: [b[lane], c[lane]],
-            slope: [slope_b[lane], slope_c[lane]],
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! Sixteen lanes of AVX-512.
 
-use super::path::{BESIDE, Hull, Path, SLICES};
+use super::path::{BESIDE, Hull, Path, PathRows, SLICES};
 use super::{Lists, ROW, Row, SHARE, Simd, Task, entered, intrinsic, registers};
 use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
@@ -203,6 +203,53 @@ impl Simd for Avx512 {
             let not_over = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(slice, _mm256_max_ps(high, _mm256_setzero_ps()));
             let met = _mm512_maskz_and_epi64(begun & not_over, a, _mm512_and_epi64(b, c));
             _mm512_reduce_or_epi64(met).cast_unsigned()
+        }
+    }
+
+    /// All eight steps of both at once: the even lanes are the first path's, the odd ones the second's, so that either's slices are
+    /// the lower halves of eight words, shifted for the second.
+    #[inline(always)]
+    fn path_unions(self, maps: [[&[u64; SLICES]; 3]; 2], paths: &PathRows, lanes: [usize; 2]) -> [u64; 2] {
+        let [low, high, start_b, start_c, slope_b, slope_c] = paths.0.each_ref().map(|row| self.load(&row.0));
+        // SAFETY: the token proves the features; each map has the eight words that are loaded.
+        unsafe {
+            let which = _mm512_set1_epi64((lanes[0] | lanes[1] << 32).cast_signed() as i64);
+            let both = |row: __m512| _mm512_permutexvar_ps(which, row);
+            let (low, high) = (both(low), both(high));
+            let slice = _mm512_setr_ps(0., 0., 1., 1., 2., 2., 3., 3., 4., 4., 5., 5., 6., 6., 7., 7.);
+            let next = _mm512_add_ps(slice, _mm512_set1_ps(1.0));
+            let (zero, last) = (_mm512_setzero_ps(), _mm512_set1_ps((SLICES - 1) as f32));
+            let left = _mm512_sub_ps(_mm512_max_ps(slice, low), low);
+            let right = _mm512_sub_ps(_mm512_min_ps(next, high), low);
+            let slices =
+                |position: __m512| _mm512_cvttps_epi32(_mm512_min_ps(_mm512_max_ps(position, zero), last));
+            let touched = |start: __m512, slope: __m512| {
+                let (start, slope) = (both(start), both(slope));
+                let p = _mm512_add_ps(start, _mm512_mul_ps(slope, left));
+                let q = _mm512_add_ps(start, _mm512_mul_ps(slope, right));
+                let far = _mm512_sub_ps(_mm512_max_ps(p, q), _mm512_set1_ps(TRIM));
+                [slices(_mm512_min_ps(p, q)), slices(far)]
+            };
+            let ([b, b_far], [c, c_far]) = (touched(start_b, slope_b), touched(start_c, slope_c));
+            let begun = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(next, _mm512_min_ps(low, last));
+            let met = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(begun, slice, _mm512_max_ps(high, zero));
+            let steps = [0x5555, 0xaaaa].map(|lanes| _pext_u32(u32::from(met), lanes) as u8);
+            let union = |maps: [&[u64; SLICES]; 3], steps: u8, [b, b_far, c, c_far]: [__m512i; 4]| {
+                let [words, of_b, of_c] = maps.map(|map| _mm512_loadu_epi64(map.as_ptr().cast()));
+                let b =
+                    _mm512_or_epi64(_mm512_permutexvar_epi64(b, of_b), _mm512_permutexvar_epi64(b_far, of_b));
+                let c =
+                    _mm512_or_epi64(_mm512_permutexvar_epi64(c, of_c), _mm512_permutexvar_epi64(c_far, of_c));
+                _mm512_maskz_and_epi64(steps, words, _mm512_and_epi64(b, c))
+            };
+            let slices = [b, b_far, c, c_far];
+            let first = union(maps[0], steps[0], slices);
+            let second = union(maps[1], steps[1], slices.map(|slice| _mm512_srli_epi64::<32>(slice)));
+            let pairs =
+                _mm512_or_epi64(_mm512_unpacklo_epi64(first, second), _mm512_unpackhi_epi64(first, second));
+            let four = _mm256_or_si256(_mm512_castsi512_si256(pairs), _mm512_extracti64x4_epi64::<1>(pairs));
+            let two = _mm_or_si128(_mm256_castsi256_si128(four), _mm256_extracti128_si256::<1>(four));
+            [_mm_cvtsi128_si64(two), _mm_extract_epi64::<1>(two)].map(i64::cast_unsigned)
         }
     }
 

@@ -287,6 +287,17 @@ pub trait Simd: Copy + Send + Sync + 'static {
         path::union(maps, path)
     }
 
+    /// [`Simd::path_union`] of two of the paths, each through maps of its own.
+    #[inline(always)]
+    fn path_unions(
+        self,
+        maps: [[&[u64; path::SLICES]; 3]; 2],
+        paths: &path::PathRows,
+        lanes: [usize; 2],
+    ) -> [u64; 2] {
+        [0, 1].map(|i| self.path_union(maps[i], &paths.path(lanes[i])))
+    }
+
     /// The bits that a hull through three maps touches; see [`path::Hull`].
     #[inline(always)]
     fn hull_union(self, maps: [&[u64; path::SLICES]; 3], hull: &path::Hull) -> u64 {

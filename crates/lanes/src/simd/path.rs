@@ -1,5 +1,6 @@
 //! Bit maps along a straight path: the one operation on words that instruction sets do differently.
 
+use super::Row;
 use accel::tolerance::TRIM;
 
 /// Slices of each map.
@@ -18,6 +19,19 @@ pub struct Path {
     pub start: [f32; 2],
     /// How it moves on the other axes.
     pub slope: [f32; 2],
+}
+
+/// Paths side by side: `low`, `high`, both of `start` and both of `slope`.
+#[derive(Clone, Copy, Debug)]
+pub struct PathRows(pub [Row; 6]);
+
+impl PathRows {
+    /// One of them.
+    #[inline(always)]
+    pub fn path(&self, lane: usize) -> Path {
+        let [low, high, b, c, slope_b, slope_c] = self.0.each_ref().map(|row| row.0[lane]);
+        Path { low, high, start: [b, c], slope: [slope_b, slope_c] }
+    }
 }
 
 /// What contains paths through three maps of [`SLICES`] slices of unit thickness. Along one axis it reaches from `low` to `high`; on each

@@ -167,7 +167,7 @@ fn levels_go_by_name() {
 }
 
 mod paths {
-    use super::super::path::{Hull, Path, SLICES};
+    use super::super::path::{Hull, Path, PathRows, SLICES};
     use super::*;
     use proptest::prelude::*;
 
@@ -189,6 +189,43 @@ mod paths {
             match self.1 {
                 Along::Path(path) => s.path_union([a, b, c], path),
                 Along::Hull(hull) => s.hull_union([a, b, c], hull),
+            }
+        }
+    }
+
+    /// Unions along two of several paths, the second through the maps in another order.
+    struct Unions<'a>(&'a [[u64; SLICES]; 3], &'a PathRows, [usize; 2]);
+
+    impl Task for Unions<'_> {
+        type Out = [u64; 2];
+
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> [u64; 2] {
+            let [a, b, c] = self.0;
+            s.path_unions([[a, b, c], [c, a, b]], self.1, self.2)
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn two_paths_meet_what_each_meets(
+            maps in prop::array::uniform3(prop::array::uniform8(any::<u64>())),
+            paths in prop::collection::vec(
+                (-0.01f32..8.0, 0f32..8.0, prop::array::uniform2(-0.5f32..8.5), prop::array::uniform2(-1f32..=1.0)),
+                ROW,
+            ),
+            lanes in prop::array::uniform2(0..ROW),
+        ) {
+            let mut rows = PathRows([Row([0.0; ROW]); 6]);
+            for (lane, (low, length, start, slope)) in paths.into_iter().enumerate() {
+                let fields = [low, (low + length).min(8.01), start[0], start[1], slope[0], slope[1]];
+                rows.0.iter_mut().zip(fields).for_each(|(row, field)| row.0[lane] = field);
+            }
+            let [a, b, c] = maps;
+            let alone = [([a, b, c], lanes[0]), ([c, a, b], lanes[1])]
+                .map(|(maps, lane)| Union(&maps, Along::Path(&rows.path(lane))).run(Portable));
+            for level in Level::here() {
+                prop_assert_eq!(level.run(Unions(&maps, &rows, lanes)), alone, "{:?}", level);
             }
         }
     }

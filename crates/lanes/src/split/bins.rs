@@ -28,7 +28,7 @@ pub fn divide_many(shape: &Shape, items: &[Item], scratch: &mut Scratch, left: L
         ((left + packet / 2) / packet * packet).clamp(packet, (len - 1) / packet * packet)
     };
     let sample = if packet > 1 { SAMPLE } else { 2 * SAMPLE };
-    let Some((bins, split)) = best(shape, items, len / sample | 1, left) else {
+    let Some((bins, split)) = best(shape, items, (len / sample) | 1, left) else {
         scratch.items[..len].copy_from_slice(items);
         return even(len / 2);
     };
@@ -131,7 +131,7 @@ impl Bins {
         let mut ranges = [[Extremes::NONE; BINS]; 2];
         let mut weights = [[0u32; BINS]; 2];
         for (i, item) in items.iter().step_by(stride).enumerate() {
-            let bin = self.of(item) / (FINE / BINS) & (BINS - 1);
+            let bin = (self.of(item) / (FINE / BINS)) & (BINS - 1);
             weights[i & 1][bin] += item.weight();
             ranges[i & 1][bin].gather(&item.extremes());
         }
