@@ -62,7 +62,9 @@ impl<O: PackedObjects> General<O> {
                 self.drain_beams::<S, ANY>(s, &negative, ready, top, scratch);
             }
         }
-        if pairs {
+        if ANY {
+            // That something is hit needs no t.
+        } else if pairs {
             let best = &mut scratch.best[..rays.len()];
             s.apart(ResolveEach { objects: &self.objects, rays, best });
         } else {
