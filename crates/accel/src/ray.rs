@@ -121,7 +121,8 @@ pub struct Surface {
 
 /// The nearest hit so far of a ray under way. Nearest t wins; on equal t the lowest
 /// object number, so that the order of tests never shows in the answer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct Nearest {
     /// The hit's t, or the ray's `t_max` while there is none.
     pub t: f32,
@@ -141,6 +142,12 @@ impl Nearest {
     #[inline]
     pub const fn new(t_max: f32) -> Self {
         Self { t: t_max, object: Self::NONE, u: 0.0, v: 0.0 }
+    }
+
+    /// t, the bits of the object's number, and both surface coordinates, in this order.
+    #[inline(always)]
+    pub fn quad(&self) -> &[f32; 4] {
+        bytemuck::cast_ref(self)
     }
 
     /// Takes a hit on `object` if it comes before what is here.

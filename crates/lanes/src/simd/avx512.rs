@@ -31,6 +31,14 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
+    fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        intrinsic!(_mm512_fmadd_ps(a, b, c))
+    }
+    #[inline(always)]
+    fn mul_sub(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        intrinsic!(_mm512_fmsub_ps(a, b, c))
+    }
+    #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {
         intrinsic!(_mm512_abs_ps(a))
     }

@@ -111,6 +111,16 @@ pub trait Simd: Copy + Send + Sync + 'static {
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
     /// a / b
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    /// a·b + c, rounded once or twice, whichever is quicker: for what bounds allow for, as instruction sets differ.
+    #[inline(always)]
+    fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        self.add(self.mul(a, b), c)
+    }
+    /// a·b − c, rounded as [`Simd::mul_add`].
+    #[inline(always)]
+    fn mul_sub(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        self.sub(self.mul(a, b), c)
+    }
     /// √a, correctly rounded; NaN below 0
     fn sqrt(self, a: Self::F) -> Self::F;
     /// |a|

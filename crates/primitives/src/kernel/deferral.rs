@@ -1,8 +1,8 @@
 //! The capability of telling what is certain before a test is decided.
 
 use super::{Many, Packed, Permuted, Prepared};
+use lanes::Simd;
 use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
-use lanes::{Row, Simd};
 
 /// What a kernel can tell of a test without deciding it.
 ///
@@ -49,9 +49,8 @@ pub trait Deferral: Permuted {
         t_max: S::F,
     ) -> Lanes<S>;
 
-    /// Each of the rays `deferred` against the triangle in its own lane of a group that [`super::Kernel::pack`] wrote, at any t
-    /// of the ray's range.
-    fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], deferred: u32) -> Lanes<S>;
+    /// The hits of the rays `deferred` that were certain, each on the triangle in its own lane.
+    fn resolve<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3], deferred: u32) -> Lanes<S>;
 }
 
 /// Hits that are certain wait until the nearest is known: for kernels with [`Deferral`].

@@ -5,8 +5,8 @@
 
 use super::{Corners, Packed};
 use accel::{Ray, Vec3};
-use lanes::Row;
-use lanes::packet::RayRows;
+use lanes::packet::{Packet, RayRows, Vec3Lanes};
+use lanes::{ROW, Simd};
 
 /// The differences and products of Möller and Trumbore's test.
 #[derive(Clone, Copy)]
@@ -56,11 +56,11 @@ pub(super) struct OneTriangle<'a> {
     corners: Corners,
 }
 
-/// Rays each against the triangle in its own lane of a group.
+/// Rays each against the triangle in its own lane.
 #[derive(Clone, Copy)]
-pub(super) struct OneEach<'a> {
-    rays: &'a RayRows,
-    group: &'a [Row],
+pub(super) struct OneEach {
+    rays: RayRows,
+    corners: [[[f32; ROW]; 3]; 3],
 }
 
 /// The ray and the triangle that meet in each lane.
@@ -89,21 +89,29 @@ impl<'a> OneTriangle<'a> {
     }
 }
 
-impl<'a> OneEach<'a> {
+impl OneEach {
     #[inline(always)]
-    pub(super) fn new(rays: &'a RayRows, group: &'a [Row]) -> Self {
-        Self { rays, group: &group[..9] }
+    pub(super) fn new<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3]) -> Self {
+        let mut rows = [[[0.0; ROW]; 3]; 3];
+        for (rows, corner) in rows.iter_mut().zip(corners) {
+            for (row, values) in rows.iter_mut().zip(corner) {
+                s.store(values, row);
+            }
+        }
+        Self { rays: RayRows::of(s, rays), corners: rows }
     }
 }
 
-impl Pairs for OneEach<'_> {
+impl Pairs for OneEach {
     #[inline(always)]
     fn ray(&self, lane: usize) -> Ray {
         self.rays.ray(lane)
     }
     #[inline(always)]
     fn corners(&self, lane: usize) -> Corners {
-        Packed::new(self.group, lane).corners()
+        let rows = &self.corners;
+        let corner = |k: usize| Vec3::new(rows[k][0][lane], rows[k][1][lane], rows[k][2][lane]);
+        [corner(0), corner(1), corner(2)]
     }
 }
 

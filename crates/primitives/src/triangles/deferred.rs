@@ -4,16 +4,13 @@
 use super::frame::Frame;
 use super::frame::Limits;
 use super::pairs::PairRays;
-use super::pending::{PendingHit, defer, lower_bound, pending};
+use super::pending::{PendingHit, defer, lower_bound};
 use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search, Slot};
 use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Deferral, Deferred, Floats, Packed};
 use accel::{Nearest, Objects, Ray, Surface};
 use lanes::packet::{Bounds, Lanes, NearestPacket, Packet, Pairs};
 use lanes::{Blocks, ROW, Row, Scalar, Simd};
-
-/// As many rows as kernels pack, or more.
-const MAX_ROWS: usize = 16;
 
 impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     const LIMIT_ROWS: usize = 0;
@@ -157,19 +154,7 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
 
     #[inline(always)]
     fn resolve_each<S: Simd>(blocks: &TriangleBlocks<K>, s: S, rays: &[Ray], best: &mut [Nearest]) {
-        for (rays, best) in rays.chunks(S::LANES).zip(best.chunks_mut(S::LANES)) {
-            if best.iter().all(|best| PendingHit::in_place_of(best).is_none()) {
-                continue;
-            }
-            let (mut chosen, mut nearest) = ([&rays[0]; ROW], [Nearest::new(0.0); ROW]);
-            for (lane, (ray, best)) in rays.iter().zip(&*best).enumerate() {
-                (chosen[lane], nearest[lane]) = (ray, *best);
-            }
-            let rays = Packet::gather(s, &chosen);
-            let mut nearest = NearestPacket::load(s, &nearest);
-            blocks.resolve_lanes(s, &rays, u32::MAX, &mut nearest);
-            nearest.store(s, best);
-        }
+        blocks.resolve_rays(s, rays, best);
     }
 
     #[inline(always)]
@@ -203,7 +188,7 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
 impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
     /// The triangle in a slot.
     #[inline(always)]
-    fn packed(&self, slot: usize) -> Packed<'_> {
+    pub(super) fn packed(&self, slot: usize) -> Packed<'_> {
         Packed::new(self.units(slot), slot % ROW)
     }
 
@@ -235,16 +220,6 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
         let lanes = K::decide_one(Scalar, &ray.prepared, packed, 1, t_max);
         let surface = Surface { t: lanes.t, u: lanes.u, v: lanes.v };
         (lanes.hit && self.holds(packed, slot, ray, surface)).then_some(surface)
-    }
-
-    /// Resolves the hit that waits, if one does.
-    #[inline(always)]
-    fn resolve_one(&self, ray: &OneRay<K>, best: &mut Nearest) {
-        if let Some(PendingHit { slot, .. }) = PendingHit::in_place_of(best) {
-            let lanes = K::decide_one(Scalar, &ray.prepared, self.packed(slot), 1, ray.ray.t_max);
-            debug_assert!(lanes.hit, "a certain hit");
-            *best = Nearest { t: lanes.t, object: self.ids.get(slot), u: lanes.u, v: lanes.v };
-        }
     }
 
     /// Decides the lanes that hit `object` at the same t as another object, and strikes them off `lanes`.
@@ -300,29 +275,5 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
             let lanes = self.held(s, slot, rays, &limits, lanes);
             Deferred::offer(self, s, self.ids.get(slot), lanes, &rays.rays, best);
         }
-    }
-
-    /// Resolves the pending hits of the lanes `which`; `best` holds their slots.
-    #[inline(always)]
-    fn resolve_lanes<S: Simd>(&self, s: S, rays: &Packet<S>, which: u32, best: &mut NearestPacket<S>) {
-        const { assert!(K::ROWS <= MAX_ROWS) };
-        let deferred = s.bits(pending(s, best)) & which;
-        if deferred == 0 {
-            return;
-        }
-        let mut slots = [0; ROW];
-        s.store_u(best.object, &mut slots);
-        let mut group = [Row([0.0; ROW]); MAX_ROWS];
-        let mut left = deferred;
-        while let Some(lane) = next_lane(&mut left) {
-            let slot = slots[lane] as usize;
-            for (to, from) in group.iter_mut().zip(self.units(slot)) {
-                to.0[lane] = from.0[slot % ROW];
-            }
-            slots[lane] = self.ids.get(slot);
-        }
-        let rays = self.triangles.frame.packet(s, rays);
-        let found = K::resolve(s, &rays, &group[..K::ROWS], deferred);
-        best.take_each(s, s.mask(deferred), &slots, &found);
     }
 }

@@ -10,6 +10,7 @@ mod in_place;
 mod pack;
 mod pairs;
 mod pending;
+mod resolve;
 mod search;
 #[cfg(test)]
 mod tests;

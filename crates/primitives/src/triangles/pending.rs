@@ -44,7 +44,13 @@ pub(super) fn lower_bound(best: &Nearest) -> f32 {
 /// The lanes whose hits are pending.
 #[inline(always)]
 pub(super) fn pending<S: Simd>(s: S, best: &NearestPacket<S>) -> S::M {
-    s.eq(best.v, s.splat(MARK))
+    marked(s, best.v)
+}
+
+/// The lanes whose hits are pending, from their `v`.
+#[inline(always)]
+pub(super) fn marked<S: Simd>(s: S, v: S::F) -> S::M {
+    s.eq(v, s.splat(MARK))
 }
 
 /// Lets those of the certain hits on the object in a slot wait that come before what is there for certain, and tells

@@ -1,18 +1,12 @@
 //! Hits and misses in `f64`, with t rounded correctly.
-//!
-//! The bounds are those of [`super::reject`] with ε = 2^-53; products of three `f32` neither under- nor overflow.
 
+use super::meeting::{Meeting, error_of, greatest3, least3};
 use super::quotient::Quotient;
 use super::signs::{Place, meets_corner, place};
 use crate::kernel::wide::{Pairs, Products};
 use accel::{Corners, Ray};
 use lanes::packet::Lanes;
 use lanes::{ROW, Simd};
-
-const BOUND: f64 = 64.0 * f64::EPSILON / 2.0;
-
-/// Of the sum of the sizes of the six products that scaled t is made of: each has eight roundings.
-const T_BOUND: f64 = 16.0 * f64::EPSILON / 2.0;
 
 /// Up to so many lanes are decided one by one.
 const FEW: u32 = 2;
@@ -57,29 +51,14 @@ impl Decisions {
     fn decide(&mut self, pairs: &impl Pairs, lane: usize) {
         let ray = pairs.ray(lane);
         let products = Products::of(&ray, &pairs.corners(lane));
-        let Products { edges, from_a, direction, det, scaled: [u, v, t] } = products;
-        let length = greater(largest(edges[0]), largest(edges[1]));
-        let size = from_a[0].abs() + from_a[1].abs() + from_a[2].abs() + length;
-        let area = length * size * BOUND;
-        let error = area * largest(direction);
-        let t_size = volume_of_sizes(edges[1], from_a, edges[0]);
-        let t_error = t_size * T_BOUND;
+        let Products { det, scaled: [u, v, _], .. } = products;
+        let error = error_of(&products);
         let w = det - u - v;
         let (least, greatest) = (least3(u, v, w), greatest3(u, v, w));
         let missed = (error < greatest) & (least < -error);
         let inside = (error < least) | (greatest < -error);
 
-        let reciprocal = 1.0 / det;
-        let quotient = t * reciprocal;
-        // |t/d − t'/d'| ≤ (error of t' + |t'/d'|·error of d')/|d| with |d| ≥ |d'| − error. The factor makes up for
-        // dividing by |d'|, for `firm` holds below; the last term for the roundings of the quotient.
-        let off = (t_error + quotient.abs() * error) * reciprocal.abs() * 1.001
-            + quotient.abs() * (4.0 * f64::EPSILON);
-        let firm = error * 2048.0 < det.abs();
-        // Without any product, as where origin and corners have one coordinate in common, t is zero without error.
-        let starts_on = t_size == 0.0;
-        // Adding zero makes −0 a +0.
-        let (low, high) = ((quotient - off) as f32 + 0.0, (quotient + off) as f32 + 0.0);
+        let Meeting { low, high, u, v, firm, starts_on } = Meeting::of(&products, error);
         // At an end of the range, the rounded t doesn't tell on which side the true one lies.
         let clear = (low == high) & (starts_on | ((low != ray.t_min) & (low != ray.t_max)));
         // Rounding keeps order: t is out of the range if what it is rounded to at least or at most is.
@@ -88,8 +67,7 @@ impl Decisions {
         self.state[lane] = if inside & firm & clear { 1.0 } else { uncertain };
         self.state[lane] = if missed { 0.0 } else { self.state[lane] };
         self.t[lane] = low;
-        self.u[lane] = (u * reciprocal) as f32;
-        self.v[lane] = (v * reciprocal) as f32;
+        (self.u[lane], self.v[lane]) = (u, v);
     }
 
     /// Decides the lanes `uncertain` by exact signs and, where t is not known, by its exact quotient, and tells which
@@ -139,33 +117,4 @@ fn in_range(ray: &Ray, corners: &Corners) -> Option<[f32; 3]> {
     let at = Quotient::of(ray, corners)?;
     let within = at.compare(ray.t_min).is_ge() && at.compare(ray.t_max).is_le();
     within.then(|| at.rounded())
-}
-
-// As comparisons, for `f64::min` and `max` treat NaN at the cost of more instructions.
-
-/// The sum of the sizes of the products that the determinant of three vectors is made of.
-#[inline(always)]
-fn volume_of_sizes(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    let part = |i: usize, j: usize, k: usize| (a[i] * (b[j] * c[k])).abs() + (a[i] * (b[k] * c[j])).abs();
-    part(0, 1, 2) + part(1, 2, 0) + part(2, 0, 1)
-}
-
-#[inline(always)]
-fn greater(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn greatest3(a: f64, b: f64, c: f64) -> f64 {
-    greater(greater(a, b), c)
-}
-
-#[inline(always)]
-fn least3(a: f64, b: f64, c: f64) -> f64 {
-    -greatest3(-a, -b, -c)
-}
-
-#[inline(always)]
-fn largest(v: [f64; 3]) -> f64 {
-    greatest3(v[0].abs(), v[1].abs(), v[2].abs())
 }

@@ -6,7 +6,7 @@
 //!    triangles tested are missed, and nearly all misses end here. Hits that are certain, with bounds of t that tell which
 //!    is the nearest, wait until the ray is done ([`Deferral`]).
 //! 2. [`decide`]: the same products in `f64` with an error bound. It settles hits, and rounds t correctly where
-//!    its bound leaves one `f32` only.
+//!    its bound leaves one `f32` only ([`meeting`]). Of hits that were certain there is nothing but t to be found ([`round`]).
 //! 3. [`signs`]: rays through an edge or a corner, by signs without error.
 //! 4. [`quotient`]: t itself without error. Ranges that begin or end at the hit, and t's halfway between two `f32`,
 //!    come here.
@@ -22,8 +22,10 @@
 //! Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18(3), 1997.
 
 mod decide;
+mod meeting;
 mod quotient;
 mod reject;
+mod round;
 mod signs;
 
 #[cfg(test)]
@@ -217,9 +219,8 @@ impl Deferral for Exact {
     }
 
     #[inline(always)]
-    fn resolve<S: Simd>(s: S, rays: &Packet<S>, group: &[Row], undecided: u32) -> Lanes<S> {
-        let rows = RayRows::of(s, rays);
-        in_range(s, decide::decide(s, &OneEach::new(&rows, group), undecided), rays, rays.t_max)
+    fn resolve<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3], deferred: u32) -> Lanes<S> {
+        round::round(s, &OneEach::new(s, rays, corners), deferred)
     }
 
     #[inline(always)]

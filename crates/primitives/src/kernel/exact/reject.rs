@@ -2,7 +2,8 @@
 //!
 //! **The bound.** Let ε = 2^-24, D the largest component of the direction (its span), L of the edges from the
 //! first corner, and S the sum of the components of the origin relative to that corner, all absolute. Differences of coordinates and
-//! all operations are exact up to a factor 1 + δ, |δ| ≤ ε, and an underflow of at most 2^-150 a product.
+//! all operations are exact up to a factor 1 + δ, |δ| ≤ ε, and an underflow of at most 2^-150 a product. Where a product and a sum are
+//! rounded as one, that is a factor less.
 //!
 //! - Scaled u and v are sums of six products of a component each of the direction, an edge and
 //!   the relative origin: at most 2DLS in all, each with at most 7 factors. Off by 14ε·DLS.
@@ -11,8 +12,8 @@
 //! - Scaled t is a sum of six products of a component each of both edges and the relative origin, each with at most 8 factors: off
 //!   by 8ε of the sum V of their sizes.
 //!
-//! With U = 18ε·L(S + 1.5L), u and v are off by less than DU, w and the determinant by less than 2.5DU, scaled t by
-//! less than 10ε·V, the margin of an eighth or more covering second-order terms, the rounding of the bounds themselves and that of the
+//! With U = 18ε·L(S + 1.5L), u and v are off by less than DU, w by less than 2.5DU, the determinant by less than 48ε·DL²,
+//! however far away the ray begins, and scaled t by less than 10ε·V, the margin of an eighth or more covering second-order terms, the rounding of the bounds themselves and that of the
 //! comparisons. With 2^-30 ≤ D ≤ 2^30 and coordinates up to 2^41 nothing overflows, and underflows
 //! add less than [`TINY`] to each. Beyond those sizes D or L counts as infinite, and nothing is certain.
 //!
@@ -22,7 +23,7 @@
 
 use super::LENGTH_ROW;
 use crate::kernel::packed::splat_row3;
-use crate::kernel::{Packed, Prepared, cross3, dot3, size3, store_rows, sub3};
+use crate::kernel::{Packed, Prepared, size3, store_rows, sub3};
 use accel::{Common, Corners};
 use lanes::packet::{Bounds, Packet, Vec3Lanes, splat3};
 use lanes::{Row, Scalar, Simd};
@@ -33,8 +34,11 @@ const BOUND: f32 = 18.0 * f32::EPSILON / 2.0;
 /// 10ε
 const T_BOUND: f32 = 10.0 * f32::EPSILON / 2.0;
 
-/// How much less certain than u and v the determinant and w are; a power of two would be too much.
-const OF_DET: f32 = 2.5;
+/// 48ε
+const DET_BOUND: f32 = 48.0 * f32::EPSILON / 2.0;
+
+/// How much less certain than u and v w is; a power of two would be too much.
+const OF_W: f32 = 2.5;
 
 /// 2^-100
 const TINY: f32 = 7.888_609e-31;
@@ -141,14 +145,14 @@ pub(super) fn bounds<S: Simd>(
 ) -> Bounds<S> {
     let (edge1, edge2) = (sub3(s, b, a), sub3(s, c, a));
     let from_a = sub3(s, ray.origin, a);
-    let p = cross3(s, ray.direction, edge2);
+    let p = cross(s, ray.direction, edge2);
     let parts = Parts {
         edge1,
         edge2,
         from_a,
         p,
-        q: cross3(s, from_a, edge1),
-        det: dot3(s, edge1, p),
+        q: cross(s, from_a, edge1),
+        det: dot(s, edge1, p),
         length,
         distance: size3(s, from_a),
     };
@@ -169,14 +173,14 @@ pub(super) fn prepare<S: Simd>(s: S, common: &Common, packed: Packed<'_>, rows: 
     store_rows(s, edge2, &mut rows[3..6], at);
     match common {
         Common::Direction(direction) => {
-            let p = cross3(s, splat3(s, *direction), edge2);
+            let p = cross(s, splat3(s, *direction), edge2);
             store_rows(s, p, &mut rows[6..9], at);
-            s.store(dot3(s, edge1, p), &mut rows[12].0[at..]);
+            s.store(dot(s, edge1, p), &mut rows[12].0[at..]);
         }
         Common::Origin(origin) => {
             let from_a = sub3(s, splat3(s, *origin), a);
             store_rows(s, from_a, &mut rows[6..9], at);
-            store_rows(s, cross3(s, from_a, edge1), &mut rows[9..12], at);
+            store_rows(s, cross(s, from_a, edge1), &mut rows[9..12], at);
             s.store(size3(s, from_a), &mut rows[12].0[at..]);
         }
     }
@@ -204,21 +208,21 @@ pub(super) fn bounds_prepared<S: Simd>(
                 edge2,
                 from_a,
                 p: splat_row3(s, &rows[6..9], lane),
-                q: cross3(s, from_a, edge1),
+                q: cross(s, from_a, edge1),
                 det: s.splat(rows[12].0[lane]),
                 length,
                 distance: size3(s, from_a),
             }
         }
         Common::Origin(_) => {
-            let p = cross3(s, ray.direction, edge2);
+            let p = cross(s, ray.direction, edge2);
             Parts {
                 edge1,
                 edge2,
                 from_a: splat_row3(s, &rows[6..9], lane),
                 p,
                 q: splat_row3(s, &rows[9..12], lane),
-                det: dot3(s, edge1, p),
+                det: dot(s, edge1, p),
                 length,
                 distance: s.splat(rows[12].0[lane]),
             }
@@ -227,15 +231,40 @@ pub(super) fn bounds_prepared<S: Simd>(
     known(s, ray, span, &parts, u32::MAX, t_max)
 }
 
+/// a × b
+#[inline(always)]
+fn cross<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> Vec3Lanes<S> {
+    let mut product = a;
+    for (component, [j, k]) in product.iter_mut().zip(OTHERS) {
+        *component = s.mul_sub(a[j], b[k], s.mul(a[k], b[j]));
+    }
+    product
+}
+
+/// The axes beside each.
+const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+
+/// a · b
+#[inline(always)]
+fn dot<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>) -> S::F {
+    s.mul_add(a[0], b[0], s.mul_add(a[1], b[1], s.mul(a[2], b[2])))
+}
+
 /// The sum of the sizes of the products that the determinant of three vectors is made of.
 #[inline(always)]
 fn volume_of_sizes<S: Simd>(s: S, a: Vec3Lanes<S>, b: Vec3Lanes<S>, c: Vec3Lanes<S>) -> S::F {
-    let mut sum = s.splat(0.0);
-    for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
-        let sizes = s.add(s.abs(s.mul(b[j], c[k])), s.abs(s.mul(b[k], c[j])));
-        sum = s.add(sum, s.mul(s.abs(a[i]), sizes));
+    let (a, b, c) = (sizes(s, a), sizes(s, b), sizes(s, c));
+    let mut products = a;
+    for (product, [j, k]) in products.iter_mut().zip(OTHERS) {
+        *product = s.mul_add(b[j], c[k], s.mul(b[k], c[j]));
     }
-    sum
+    dot(s, a, products)
+}
+
+/// The sizes of the components.
+#[inline(always)]
+fn sizes<S: Simd>(s: S, v: Vec3Lanes<S>) -> Vec3Lanes<S> {
+    [s.abs(v[0]), s.abs(v[1]), s.abs(v[2])]
 }
 
 #[inline(always)]
@@ -248,16 +277,16 @@ fn known<S: Simd>(
     t_max: S::F,
 ) -> Bounds<S> {
     let Parts { edge1, edge2, from_a, p, q, det, length, distance } = *parts;
-    let u = dot3(s, from_a, p);
-    let v = dot3(s, ray.direction, q);
+    let u = dot(s, from_a, p);
+    let v = dot(s, ray.direction, q);
     let w = s.sub(s.sub(det, u), v);
-    let size = s.add(distance, s.mul(length, s.splat(1.5)));
+    let size = s.mul_add(length, s.splat(1.5), distance);
     let unit = s.mul(s.mul(length, s.splat(BOUND)), size);
-    let error = s.add(s.mul(unit, span.largest), s.splat(TINY));
+    let error = s.mul_add(unit, span.largest, s.splat(TINY));
 
     let zero = s.splat(0.0);
     let minus_error = s.sub(zero, error);
-    let w = s.mul(w, s.splat(1.0 / OF_DET));
+    let w = s.mul(w, s.splat(1.0 / OF_W));
     let least = s.min(s.min(u, v), w);
     let greatest = s.max(s.max(u, v), w);
     // Certainly of different signs. What is beyond the bound is infinite or NaN and stays undecided.
@@ -268,14 +297,15 @@ fn known<S: Simd>(
     }
 
     let infinity = s.splat(f32::INFINITY);
-    let det_error = s.mul(error, s.splat(OF_DET));
+    let square = s.mul(s.mul(length, s.splat(DET_BOUND)), length);
+    let det_error = s.mul_add(square, span.largest, s.splat(TINY));
     let reciprocal = s.div(s.splat(1.0), det);
-    let t = s.mul(dot3(s, edge2, q), reciprocal);
-    let t_error = s.add(s.mul(volume_of_sizes(s, edge2, from_a, edge1), s.splat(T_BOUND)), s.splat(TINY));
+    let t = s.mul(dot(s, edge2, q), reciprocal);
+    let t_error = s.mul_add(volume_of_sizes(s, edge2, from_a, edge1), s.splat(T_BOUND), s.splat(TINY));
     let size_of_t = s.abs(t);
-    let off = s.mul(s.add(t_error, s.mul(size_of_t, det_error)), s.abs(reciprocal));
-    let rounding = s.add(s.mul(size_of_t, s.splat(ROUNDING)), s.splat(f32::MIN_POSITIVE));
-    let off = s.add(s.mul(off, s.splat(MARGIN)), rounding);
+    let scaled = s.mul_add(size_of_t, det_error, t_error);
+    let rounding = s.mul_add(size_of_t, s.splat(ROUNDING), s.splat(f32::MIN_POSITIVE));
+    let off = s.mul_add(scaled, s.mul(s.abs(reciprocal), s.splat(MARGIN)), rounding);
     let firm = s.lt(s.mul(det_error, s.splat(FIRM)), s.abs(det));
     let low = s.select(firm, s.sub(t, off), s.sub(zero, infinity));
     let high = s.select(firm, s.add(t, off), infinity);
