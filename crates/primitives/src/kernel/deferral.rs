@@ -1,6 +1,7 @@
 //! The capability of telling what is certain before a test is decided.
 
 use super::{Many, Packed, Permuted, Prepared};
+use accel::Corners;
 use lanes::Simd;
 use lanes::packet::{Bounds, Lanes, Packet, Vec3Lanes};
 
@@ -48,6 +49,9 @@ pub trait Deferral: Permuted {
         undecided: u32,
         t_max: S::F,
     ) -> Lanes<S>;
+
+    /// Whether it is plain that any ray that hits both triangles does so at one t, so that the lower number comes first.
+    fn at_one_t(a: &Corners, b: &Corners) -> bool;
 
     /// The hits of the rays `deferred` that were certain, each on the triangle in its own lane.
     fn resolve<S: Simd>(s: S, rays: &Packet<S>, corners: [Vec3Lanes<S>; 3], deferred: u32) -> Lanes<S>;

@@ -93,25 +93,22 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
             let (mut low, mut high) = ([0.0; ROW], [0.0; ROW]);
             s.store(bounds.low, &mut low);
             s.store(bounds.high, &mut high);
-            let mut certain = undecided & s.bits(bounds.certain);
-            while let Some(lane) = next_lane(&mut certain) {
-                let (slot, place) = group.pair(lane);
-                if near >> place & 1 != 0 && high[lane] < lower_bound(&best[place]) {
-                    PendingHit { slot, low: low[lane], high: high[lane] }.wait(&mut best[place]);
-                    rays.found(place, pairs.any, high[lane]);
-                    undecided &= !(1 << lane);
-                }
-            }
+            let certain = s.bits(bounds.certain);
             while let Some(lane) = next_lane(&mut undecided) {
                 let (slot, place) = group.pair(lane);
-                let best = &mut best[place];
-                let known = PendingHit::in_place_of(best).is_some_and(|pending| pending.slot == slot);
-                if known || low[lane] > rays.t_max(place) {
+                let hit = PendingHit { slot, low: low[lane], high: high[lane] };
+                if hit.low > rays.t_max(place) {
                     continue;
                 }
-                blocks.decide_pair(&rays.ray(place), slot, high[lane], best);
+                let best = &mut best[place];
+                let certain = certain >> lane & near >> place & 1 != 0;
+                if certain && hit.high < rays.floor(place) {
+                    hit.wait(best);
+                } else {
+                    blocks.compare_pair(&rays.ray(place), hit, certain, best);
+                }
                 if best.object != Nearest::NONE {
-                    rays.found(place, pairs.any, best.t);
+                    rays.found(place, pairs.any, best);
                 }
             }
         }
@@ -204,13 +201,29 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
         }
     }
 
-    /// Decides the test of a ray that isn't prepared.
+    /// Finds out whether a hit of a ray that isn't prepared, if it is one, comes before the one that is known.
     #[inline(never)]
-    fn decide_pair(&self, ray: &Ray, slot: usize, high: f32, best: &mut Nearest) {
-        if self.in_place {
-            return self.triangles.closest(self.ids.get(slot), ray, best);
+    fn compare_pair(&self, ray: &Ray, hit: PendingHit, certain: bool, best: &mut Nearest) {
+        if let Some(known) = PendingHit::in_place_of(best)
+            && (known.slot == hit.slot || certain && self.at_one_t(hit, known, best))
+        {
+            return;
         }
-        self.decide_one(&self.prepare_one(ray), slot, high, best);
+        if self.in_place {
+            return self.triangles.closest(self.ids.get(hit.slot), ray, best);
+        }
+        self.decide_one(&self.prepare_one(ray), hit.slot, hit.high, best);
+    }
+
+    /// Where both hits are at one t, whatever that is, lets the one wait that comes first.
+    #[inline(always)]
+    fn at_one_t(&self, hit: PendingHit, known: PendingHit, best: &mut Nearest) -> bool {
+        if !K::at_one_t(&self.corners_of(hit.slot), &self.corners_of(known.slot)) {
+            return false;
+        }
+        let first = if self.ids.get(hit.slot) < self.ids.get(known.slot) { hit.slot } else { known.slot };
+        PendingHit { slot: first, low: hit.low.max(known.low), high: hit.high.min(known.high) }.wait(best);
+        true
     }
 
     /// The hit on the triangle in a slot.

@@ -115,7 +115,7 @@ impl Kernel for Exact {
     #[cold]
     fn order(ray: &Ray, corners: impl FnOnce() -> [Corners; 2]) -> Ordering {
         let [a, b] = &corners();
-        if a == b || in_one_slice_plane(a, b) {
+        if Self::at_one_t(a, b) {
             return Ordering::Equal;
         }
         if meet_at_corner(ray, a, b) {
@@ -216,6 +216,11 @@ impl Deferral for Exact {
         let rows = RayRows::of(s, &rays.rays);
         let pairs = OneTriangle::new(&rows, Packed { group, ..packed });
         in_range(s, decide::decide(s, &pairs, undecided), &rays.rays, t_max)
+    }
+
+    #[inline]
+    fn at_one_t(a: &Corners, b: &Corners) -> bool {
+        a == b || in_one_slice_plane(a, b)
     }
 
     #[inline(always)]
