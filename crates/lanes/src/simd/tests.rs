@@ -352,3 +352,31 @@ fn levels_are_read_or_named() {
     assert_eq!(Level::parse("portable"), Ok(Level::Portable));
     assert!(Level::parse("mmx").unwrap_err().contains("portable"));
 }
+
+/// Its square needs more digits than `f32` has.
+const NEAR_ONE: f32 = 1.0 + 1.0 / 4096.0;
+
+/// The square of that, and 1 added or taken off.
+struct Fused;
+
+impl Task for Fused {
+    type Out = [f32; 2];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> [f32; 2] {
+        let (a, c) = (s.splat(NEAR_ONE), s.splat(1.0));
+        [s.mul_add(a, a, c), s.mul_sub(a, a, c)].map(|v| s.most(v))
+    }
+}
+
+#[test]
+fn products_and_sums_are_rounded_once_or_twice() {
+    let a = NEAR_ONE;
+    let fused = [a.mul_add(a, 1.0), a.mul_add(a, -1.0)];
+    let apart = [a * a + 1.0, a * a - 1.0];
+    assert_ne!(fused[1], apart[1], "the difference shows how often it was rounded");
+    for level in Level::here() {
+        let found = level.run(Fused);
+        assert!(found == fused || found == apart, "{level:?}: {found:?}");
+    }
+}

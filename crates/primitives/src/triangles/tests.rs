@@ -62,17 +62,24 @@ impl<B: Blocks> Task for ByMask<'_, B> {
 
 const PAIRS: usize = ROW * BLOCK;
 
-struct Compare<'a>(&'a Mesh, &'a [Ray], u64);
+struct Compare<'a> {
+    mesh: &'a Mesh,
+    rays: &'a [Ray],
+    mask: u64,
+    /// Whether higher numbers come in lower slots.
+    backwards: bool,
+}
 
 impl WithKernel for Compare<'_> {
     type Out = ();
     fn kernel<K: TriangleKernel>(self) {
-        let Self(mesh, rays, mask) = self;
+        let Self { mesh, rays, mask, backwards } = self;
         let objects = Triangles::<K>::new(mesh);
         let order: Vec<u32> =
             (0..BLOCK as u32).map(|i| if i % 5 == 4 { EMPTY_SLOT } else { i / 5 * 4 + i % 5 }).collect();
         let order: Vec<u32> =
             order.iter().map(|&id| if (id as usize) < objects.len() { id } else { EMPTY_SLOT }).collect();
+        let order: Vec<u32> = if backwards { order.into_iter().rev().collect() } else { order };
         let blocks = objects.blocks("x", &order).unwrap();
         let packed = OneByOne::new(objects, "x", &order).unwrap();
         let in_place = objects.blocks_in_place("x", &order).unwrap();
@@ -117,7 +124,28 @@ proptest! {
             .map(|(o, a)| Ray::new(*o, if a == o { Vec3::X } else { *a - *o }))
             .collect();
         for kernel in KernelId::ALL {
-            kernel.with(Compare(&mesh(&corners), &rays, mask));
+            kernel.with(Compare { mesh: &mesh(&corners), rays: &rays, mask, backwards: false });
+        }
+    }
+
+    /// Triangles in a few planes perpendicular to an axis are hit at one t by tens, of which the lowest number comes first.
+    #[test]
+    fn ties_in_one_plane_go_to_the_lowest_number(
+        corners in prop::collection::vec((prop::array::uniform3(point(1.0)), -1i8..=1), 1..52),
+        origins in prop::collection::vec(point(2.0), ROW..=ROW),
+        aims in prop::collection::vec(point(0.5), ROW..=ROW),
+        axis in 0usize..3,
+        backwards: bool,
+    ) {
+        let mut flat: Vec<_> = corners.iter().map(|(corners, _)| *corners).collect();
+        for (flat, (_, place)) in flat.iter_mut().zip(&corners) {
+            flat.iter_mut().for_each(|corner| corner[axis] = f32::from(*place) * 0.3);
+        }
+        let rays: Vec<Ray> = origins.iter().zip(&aims)
+            .map(|(o, a)| Ray::new(*o, if a == o { Vec3::X } else { *a - *o }))
+            .collect();
+        for kernel in KernelId::ALL {
+            kernel.with(Compare { mesh: &mesh(&flat), rays: &rays, mask: u64::MAX, backwards });
         }
     }
 }

@@ -1,7 +1,7 @@
 use super::strategies::{aim, corners, lattice, vector, weights};
 use super::*;
-use accel::{Corners, Vec3};
-use lanes::ROW;
+use accel::{Corners, Surface, Vec3};
+use lanes::{Level, ROW, Task};
 use oracle::intersect;
 use proptest::prelude::*;
 
@@ -17,18 +17,49 @@ fn any_finite() -> impl Strategy<Value = f32> + Clone {
     any::<u32>().prop_map(f32::from_bits).prop_map(|x| if x.is_finite() { x } else { 1.0 })
 }
 
+/// What is told of a test in advance, and where it is certain what the hit is resolved to.
+struct Told<'a>(&'a Ray, &'a Corners);
+
+impl Task for Told<'_> {
+    type Out = ([bool; 2], [f32; 2], [f32; 3]);
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> Self::Out {
+        let Self(ray, triangle) = self;
+        let mut group = [Row([0.0; ROW]); <Exact as Kernel>::ROWS];
+        Exact::pack(triangle, &mut group, 0);
+        let packed = Packed::new(&group, 0);
+        let Bounds { undecided, certain, low, high } =
+            Exact::bounds_one(s, &Exact::one(ray), packed, 1, ray.t_max);
+        let (one, mut rows) = (s.bits(certain) & 1, [[0.0; ROW]; 5]);
+        let found = match one {
+            0 => nothing(s),
+            _ => Exact::resolve(s, &Packet::splat(s, ray), packed.load_corners(s), one),
+        };
+        for (row, value) in rows.iter_mut().zip([low, high, found.t, found.u, found.v]) {
+            s.store(value, row);
+        }
+        let [low, high, t, u, v] = rows.map(|row| row[0]);
+        ([s.bits(undecided) & 1 != 0, one != 0], [low, high], [t, u, v])
+    }
+}
+
 fn check(ray: &Ray, triangle: &Corners) -> Result<(), TestCaseError> {
     let found = Exact::test(&Exact::one(ray), triangle, ray.t_max);
     let exact = intersect(ray, triangle);
-    let mut group = [Row([0.0; ROW]); <Exact as Kernel>::ROWS];
-    Exact::pack(triangle, &mut group, 0);
-    let bounds = Exact::bounds_one(Scalar, &Exact::one(ray), Packed::new(&group, 0), 1, ray.t_max);
-    prop_assert!(bounds.undecided || exact.is_none(), "{:?} {:?}", ray, triangle);
     let beyond = intersect(&Ray { t_max: f32::INFINITY, ..*ray }, triangle);
     let t = beyond.as_ref().map_or(f64::NAN, |hit| hit.t.to_f64());
-    let within = f64::from(bounds.low) <= t && t <= f64::from(bounds.high);
-    let text = format!("{ray:?} {triangle:?}: {} to {}", bounds.low, bounds.high);
-    prop_assert!(within || !bounds.certain && beyond.is_none(), "{}", text);
+    for level in Level::here() {
+        let ([undecided, certain], [low, high], resolved) = level.run(Told(ray, triangle));
+        let text = format!("{level:?} {ray:?} {triangle:?}: {low} to {high}");
+        prop_assert!(undecided || exact.is_none(), "{}", text);
+        let within = f64::from(low) <= t && t <= f64::from(high);
+        prop_assert!(within || !certain && beyond.is_none(), "{}", text);
+        if certain && high < ray.t_max {
+            let decided = found.map(|Surface { t, u, v }| [t, u, v].map(f32::to_bits));
+            prop_assert_eq!(Some(resolved.map(f32::to_bits)), decided, "{}", text);
+        }
+    }
     prop_assert_eq!(found.map(|s| s.t), exact.as_ref().map(|hit| hit.t.to_f32()), "{:?} {:?}", ray, triangle);
     if let (Some(found), Some(exact)) = (found, exact) {
         let near = |a: f32, b: f32| (a - b).abs() <= f32::EPSILON;
@@ -65,6 +96,23 @@ proptest! {
                 check(&Ray { t_max: t, ..aimed }, &tri)?;
             }
         }
+    }
+
+    #[test]
+    fn small_triangles_seen_from_afar_are_as_the_oracle_has_them(o in vector(plain()), at in vector(plain()), tri in corners(plain()), w in weights(), less in 0i32..20) {
+        let tri = tri.map(|corner| at + corner * power_of_two(-less));
+        let aimed = Ray::new(o, aim(&tri, w) - o);
+        check(&aimed, &tri)?;
+        check(&Ray { t_max: 1.0, ..aimed }, &tri)?;
+    }
+
+    /// What there is of scaled t is small then, and of the determinant as much as ever.
+    #[test]
+    fn rays_that_graze_from_beside_a_corner_are_as_the_oracle_has_them(beside in vector(plain()), tri in corners(plain()), w in weights(), less in 0i32..20) {
+        let o = tri[0] + beside * power_of_two(-less);
+        let aimed = Ray::new(o, aim(&tri, w) - o);
+        check(&aimed, &tri)?;
+        check(&Ray { t_max: 0.5, ..aimed }, &tri)?;
     }
 
     #[test]
