@@ -4,7 +4,7 @@
 use super::frame::Frame;
 use super::frame::Limits;
 use super::pairs::PairRays;
-use super::pending::{PendingHit, defer, lower_bound};
+use super::pending::{Floors, PendingHit, defer, lower_bound};
 use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search, Slot};
 use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Deferral, Deferred, Floats, Packed};
@@ -78,6 +78,7 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     {
         let near = if blocks.in_place { 0 } else { s.bits(blocks.near(s, pairs.packet)) };
         let mut rays = PairRays::of(s, blocks, pairs, best);
+        let mut floors = Floors::of(s, best);
         for at in (0..pairs.len).step_by(S::LANES) {
             let group = rays.group(s, blocks, pairs, at);
             let sizes = if blocks.in_place {
@@ -102,13 +103,14 @@ impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
                 }
                 let best = &mut best[place];
                 let certain = certain >> lane & near >> place & 1 != 0;
-                if certain && hit.high < rays.floor(place) {
+                if certain && hit.high < floors.0[place] {
                     hit.wait(best);
                 } else {
                     blocks.compare_pair(&rays.ray(place), hit, certain, best);
                 }
                 if best.object != Nearest::NONE {
-                    rays.found(place, pairs.any, best);
+                    rays.found(place, pairs.any, best.t);
+                    floors.0[place] = lower_bound(best);
                 }
             }
         }

@@ -37,7 +37,7 @@ impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
                 let plain = plain >> lane & near >> place & 1 != 0;
                 if plain || frame.holds(&blocks.corners_of(slot), &rays.ray(place), false, surface.t) {
                     best[place].offer(blocks.ids.get(slot), surface);
-                    rays.found(place, pairs.any, &best[place]);
+                    rays.found(place, pairs.any, best[place].t);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Rays and packed triangles brought together, one of each in a lane.
 
-use super::pending::{lower_bound, marked};
+use super::pending::load_nearest;
 use super::{CORNER_ROWS, TriangleBlocks};
 use crate::kernel::{Floats, Kernel, Many, Permuted};
 use accel::{MeshRef, Nearest, Ray};
@@ -13,8 +13,6 @@ pub(super) struct PairRays<K: Kernel, S: Simd> {
     rows: RayRows,
     /// Up to what t each looks.
     t_max: [f32; ROW],
-    /// The t of each one's nearest hit, or a lower bound of it where the hit waits.
-    floor: [f32; ROW],
 }
 
 /// `LANES` of the pairs, or those that are left.
@@ -46,18 +44,13 @@ impl<K: Permuted<Storage = Floats>, S: Simd> PairRays<K, S> {
     /// Prepares the rays; each looks up to its nearest hit so far.
     #[inline(always)]
     pub fn of(s: S, blocks: &TriangleBlocks<K>, pairs: &Pairs<S>, best: &[Nearest; ROW]) -> Self {
-        let [mut t_max, mut floor] = [[0.0; ROW]; 2];
+        let mut t_max = [0.0; ROW];
         for at in (0..ROW).step_by(S::LANES) {
-            let mut quads = [best[at].quad(); ROW];
-            for (quad, best) in quads.iter_mut().zip(&best[at..at + S::LANES]) {
-                *quad = best.quad();
-            }
-            let [t, _, u, v] = s.load_quads(&quads);
+            let [t, ..] = load_nearest(s, &best[at..]);
             s.store(t, &mut t_max[at..]);
-            s.store(s.select(marked(s, v), u, t), &mut floor[at..]);
         }
         let many = K::many(s, &blocks.triangles.frame.packet(s, pairs.packet));
-        Self { many, rows: RayRows::of(s, pairs.packet), t_max, floor }
+        Self { many, rows: RayRows::of(s, pairs.packet), t_max }
     }
 
     /// The pairs from `at` on, ray and triangle in one lane.
@@ -93,18 +86,10 @@ impl<K: Permuted<Storage = Floats>, S: Simd> PairRays<K, S> {
         self.t_max[place]
     }
 
-    /// What the ray at a place has hit is at this t or above, or it looks no farther than this.
+    /// Lets the ray at a place look no farther than a hit, or no more if any hit will do.
     #[inline(always)]
-    pub fn floor(&self, place: usize) -> f32 {
-        self.floor[place]
-    }
-
-    /// Lets the ray at a place look no farther than its nearest hit, or no more if any hit will do.
-    #[inline(always)]
-    pub fn found(&mut self, place: usize, any: bool, nearest: &Nearest) {
-        let off = f32::NEG_INFINITY;
-        self.t_max[place] = if any { off } else { nearest.t };
-        self.floor[place] = if any { off } else { lower_bound(nearest) };
+    pub fn found(&mut self, place: usize, any: bool, t: f32) {
+        self.t_max[place] = if any { f32::NEG_INFINITY } else { t };
     }
 }
 

@@ -1,8 +1,8 @@
 //! Hits that wait to be resolved.
 
 use accel::Nearest;
-use lanes::Simd;
 use lanes::packet::{Bounds, Lanes, NearestPacket};
+use lanes::{ROW, Simd};
 
 /// A hit that is certain and nearer than any other so far, but whose t is known within bounds only.
 ///
@@ -39,6 +39,32 @@ impl PendingHit {
 #[inline(always)]
 pub(super) fn lower_bound(best: &Nearest) -> f32 {
     PendingHit::in_place_of(best).map_or(best.t, |pending| pending.low)
+}
+
+/// The [`lower_bound`] of each of some rays.
+pub(super) struct Floors(pub [f32; ROW]);
+
+impl Floors {
+    #[inline(always)]
+    pub fn of<S: Simd>(s: S, best: &[Nearest; ROW]) -> Self {
+        let mut floors = [0.0; ROW];
+        for at in (0..ROW).step_by(S::LANES) {
+            let [t, _, u, v] = load_nearest(s, &best[at..]);
+            s.store(s.select(marked(s, v), u, t), &mut floors[at..]);
+        }
+        Self(floors)
+    }
+}
+
+/// t, the bits of the object's number, and both surface coordinates of the first `LANES`.
+#[inline(always)]
+pub(super) fn load_nearest<S: Simd>(s: S, best: &[Nearest]) -> [S::F; 4] {
+    let best = &best[..S::LANES];
+    let mut quads = [best[0].quad(); ROW];
+    for (quad, best) in quads.iter_mut().zip(best) {
+        *quad = best.quad();
+    }
+    s.load_quads(&quads)
 }
 
 /// The lanes whose hits are pending.

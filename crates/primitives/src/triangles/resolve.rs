@@ -2,7 +2,7 @@
 
 use super::TriangleBlocks;
 use super::next_lane;
-use super::pending::{PendingHit, marked, pending};
+use super::pending::{PendingHit, load_nearest, marked, pending};
 use super::search::OneRay;
 use crate::kernel::{Deferral, Floats};
 use accel::{Nearest, Ray, Surface};
@@ -43,11 +43,7 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
     #[inline(always)]
     fn resolve_group<S: Simd>(&self, s: S, rays: &[Ray], best: &mut [Nearest]) {
         let (rays, best) = (&rays[..S::LANES], &mut best[..S::LANES]);
-        let (mut chosen, mut quads) = ([&rays[0]; ROW], [best[0].quad(); ROW]);
-        for lane in 0..S::LANES {
-            (chosen[lane], quads[lane]) = (&rays[lane], best[lane].quad());
-        }
-        let [_, object, _, v] = s.load_quads(&quads);
+        let [_, object, _, v] = load_nearest(s, best);
         let mut deferred = s.bits(marked(s, v));
         if deferred == 0 {
             return;
@@ -55,6 +51,10 @@ impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
         let mut objects = [0.0; ROW];
         s.store(object, &mut objects);
         let slots = objects.map(f32::to_bits);
+        let mut chosen = [&rays[0]; ROW];
+        for (chosen, ray) in chosen.iter_mut().zip(rays) {
+            *chosen = ray;
+        }
         let rays = self.triangles.frame.packet(s, &Packet::gather(s, &chosen));
         let found = K::resolve(s, &rays, self.corners_in(s, &slots, deferred), deferred).rows(s);
         while let Some(lane) = next_lane(&mut deferred) {
