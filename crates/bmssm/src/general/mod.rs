@@ -14,6 +14,7 @@ mod scratch;
 mod state;
 mod stream;
 mod test;
+mod together;
 mod trace;
 mod tree;
 mod visit;
@@ -29,6 +30,7 @@ pub use memory::bytes;
 use order::Order;
 use scene::Scene;
 use scratch::Scratch;
+use together::stream_len;
 use trace::Stack;
 use tree::{Fill, Node};
 
@@ -197,11 +199,15 @@ impl<O: PackedObjects, T, A: Fn(&Nearest) -> T, const ANY: bool> Task for Stream
     type Out = Counters;
     #[inline(always)]
     fn run<S: Simd>(self, s: S) -> Counters {
-        let (mut scratch, stream) = (Scratch::default(), self.general.stream_len());
-        for (rays, answers) in self.rays.chunks(stream).zip(self.answers.chunks_mut(stream)) {
-            self.general.stream::<S, ANY>(s, rays, &mut scratch);
-            for (answer, best) in answers.iter_mut().zip(&scratch.best) {
-                *answer = (self.answer)(best);
+        let Self { general, mut rays, mut answers, answer } = self;
+        let (mut scratch, extent) = (Scratch::default(), general.frame.bounds().extent().max_element());
+        while !rays.is_empty() {
+            let len = stream_len(general.maps.len(), extent, rays).min(rays.len());
+            let next = rays.split_off(..len).expect("so many are left");
+            let answers = answers.split_off_mut(..len).expect("one for each");
+            general.stream::<S, ANY>(s, next, &mut scratch);
+            for (place, best) in answers.iter_mut().zip(&scratch.best) {
+                *place = answer(best);
             }
         }
         scratch.steps

@@ -7,19 +7,13 @@
 use super::General;
 use super::paths::Along;
 use super::ready::{Begin, Begun, MIXED};
-use super::scratch::{STREAM, Scratch, Waiting};
+use super::scratch::{Scratch, Waiting};
 use super::state::TraversalState;
 use super::test::{ResolveEach, TestOne, TestPairs};
 use super::tree::Node;
 use super::visit::Visit;
 use accel::Ray;
 use lanes::{Blocks, PackedObjects, ROW, Simd, prefetch};
-
-/// Rays of a stream over few blocks, whose rays fit into a cache of the second level.
-const SHORT_STREAM: usize = 1 << 14;
-
-/// From this many blocks on streams are long: in short ones too few rays would reach each block.
-const MANY_BLOCKS: usize = 1 << 11;
 
 /// From this many blocks on, rays that begin within the scene in many directions are listed together: over fewer, lists by octant
 /// fill as well, and visits that know their octant are shorter.
@@ -32,11 +26,6 @@ const FEW: usize = 8;
 type One<O> = <<O as PackedObjects>::Blocks as Blocks>::One;
 
 impl<O: PackedObjects> General<O> {
-    /// Rays that are best taken together.
-    pub(super) fn stream_len(&self) -> usize {
-        if self.maps.len() < MANY_BLOCKS { SHORT_STREAM } else { STREAM }
-    }
-
     /// The nearest hits of up to [`STREAM`] rays, or for `ANY` some hit, left in `scratch.best`.
     #[inline(always)]
     pub(super) fn stream<S: Simd, const ANY: bool>(&self, s: S, rays: &[Ray], scratch: &mut Scratch) {
