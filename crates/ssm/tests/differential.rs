@@ -2,7 +2,7 @@
 
 mod common;
 
-use accel::{Builder, Geometry, Mesh, Scene, Vec3, Workload};
+use accel::{Builder, Counters, Geometry, Mesh, Ray, RaySet, Scene, Vec3, Workload};
 use common::{boxes, cloud, compare, mesh, moved, rays, scene};
 use lanes::Level;
 use primitives::KernelId;
@@ -118,4 +118,53 @@ proptest! {
         }
         check(&scene, 400, Settings::new(Resolution::Slices(slices)));
     }
+}
+
+/// Rays towards a light from points side by side, as from the pixels of an image; here and there one goes elsewhere.
+fn towards_a_light(scene: &Scene, count: u32) -> RaySet {
+    let bounds = scene.geometry.bounds();
+    let size = bounds.max - bounds.min;
+    let light = bounds.max + size * 0.3;
+    let ray = |i: u32| {
+        let (x, y) = ((i % 64) as f32 / 64.0, (i / 64 % 64) as f32 / 64.0);
+        let depth = if i.is_multiple_of(23) { 0.9 } else { 0.1 + 0.05 * x };
+        let origin = bounds.min + size * Vec3::new(x, y, depth);
+        let to = if i.is_multiple_of(37) { origin - size } else { light };
+        Ray { origin, direction: to - origin, t_min: 1e-4, t_max: 1.0 }
+    };
+    RaySet::List((0..count).map(ray).collect())
+}
+
+#[test]
+fn neighbours_that_go_together_meet_what_each_meets_alone() {
+    let thin = moved(cloud(3000, 0.02), 1.0, Vec3::splat(40.0));
+    for scene in [cloud(3000, 0.02), cloud(800, 0.1), thin, boxes(2000, 0.03)] {
+        let rays = towards_a_light(&scene, 4096);
+        for simd in Level::here() {
+            // The first two keep boxes of groups in one scene at least, without which rays go by themselves.
+            for resolution in [Resolution::Slices([2; 3]), Resolution::Slices([3, 2, 4]), DENSE] {
+                let settings = Settings { simd, ..Settings::new(resolution) };
+                for divide in [None, Some(0.5), Some(3.0)] {
+                    let ssm = Ssm { settings, divide };
+                    let built = ssm.build(&scene, &Workload::GENERAL).unwrap();
+                    compare(&scene, settings.kernel, &rays, &format!("{settings:?} {divide:?}"), &*built);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn neighbours_that_go_together_look_at_fewer_cells() {
+    let scene = cloud(3000, 0.02);
+    let rays = towards_a_light(&scene, 4096);
+    let settings = Settings::new(Resolution::Slices([2; 3]));
+    let built = Ssm { settings, divide: None }.build(&scene, &Workload::GENERAL).unwrap();
+    let many = built.count(&rays, true).unwrap();
+    let alone = (0..rays.len()).map(|i| built.count(&RaySet::List(vec![rays.ray(i)]), true).unwrap());
+    let alone = alone.fold(Counters::default(), |mut sum, counters| {
+        sum.merge(&counters);
+        sum
+    });
+    assert!(2 * many.cells < alone.cells, "{} and {}", many.cells, alone.cells);
 }

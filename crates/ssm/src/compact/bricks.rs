@@ -13,12 +13,12 @@ use std::ops::Range;
 /// Cells along an edge of a brick.
 pub(super) const EDGE: u32 = 4;
 /// Two to this is [`EDGE`].
-const SHIFT: u32 = 2;
+pub(super) const SHIFT: u32 = 2;
 /// Cells of a brick.
 pub(super) const BRICK: usize = 64;
 
 /// Most levels of bricks within cells.
-const MAX_LEVELS: usize = 7;
+pub(super) const MAX_LEVELS: usize = 7;
 
 /// How the cells lie, and which of them hold anything.
 #[derive(Debug)]
@@ -29,7 +29,7 @@ pub(super) struct BrickGrid {
     /// How often a cell may be divided.
     levels: u32,
     /// Bricks of the grid itself on each axis.
-    bricks: [u32; 3],
+    pub bricks: [u32; 3],
     /// A bit for each cell of each brick; those of divided cells come behind the grid's own.
     pub occupied: Box<[u64]>,
     /// A bit for each divided cell; empty if there is none.
@@ -63,6 +63,25 @@ impl BrickGrid {
     /// How often a cell may be divided.
     pub fn levels(&self) -> u32 {
         self.levels
+    }
+
+    /// Two to this is the number of the finest cells along an edge of a cell of the grid itself.
+    #[inline(always)]
+    pub fn top(&self) -> u32 {
+        SHIFT * self.levels
+    }
+
+    /// The finest slices on each axis.
+    #[inline(always)]
+    pub fn finest_slices(&self) -> [u32; 3] {
+        self.finest.resolution()
+    }
+
+    /// The number of a brick of the grid itself.
+    #[inline(always)]
+    pub fn brick_at(&self, [x, y, z]: [u32; 3]) -> u32 {
+        let [bx, by, _] = self.bricks;
+        (z * by + y) * bx + x
     }
 
     /// Number of bricks of the grid itself.
@@ -159,7 +178,7 @@ impl BrickGrid {
     #[inline(always)]
     pub fn walk<V: Visit>(&self, segment: &ClippedSegment, mut limit: f32, visit: &mut V) {
         let [bx, by, _] = self.bricks;
-        let top = SHIFT * self.levels;
+        let top = self.top();
         let edge = top + SHIFT;
         let mut brick = segment.cell(0.0).map(|c| c >> edge);
         let mut enter = 0f32;
@@ -229,7 +248,13 @@ impl BrickGrid {
 
     #[inline(always)]
     fn is_divided(&self, node: u32, within: u32) -> bool {
-        self.divided.get(node as usize).is_some_and(|bits| bits >> within & 1 != 0)
+        self.divided_cells(node) >> within & 1 != 0
+    }
+
+    /// The divided cells of a brick.
+    #[inline(always)]
+    pub fn divided_cells(&self, node: u32) -> u64 {
+        self.divided.get(node as usize).copied().unwrap_or(0)
     }
 }
 

@@ -22,18 +22,18 @@ pub(super) struct Frame {
 /// between slices.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClippedSegment {
-    start: [f32; 3],
-    delta: [f32; 3],
+    pub start: [f32; 3],
+    pub delta: [f32; 3],
     /// Plane p of an axis is met at s = p·scale + offset.
-    scale: [f32; 3],
-    offset: [f32; 3],
+    pub scale: [f32; 3],
+    pub offset: [f32; 3],
     /// 1, or −1 in two's complement.
-    step: [u32; 3],
-    forward: [u32; 3],
+    pub step: [u32; 3],
+    pub forward: [u32; 3],
     /// Where it starts in the grid's unit coordinates.
-    unit_start: [f32; 3],
+    pub unit_start: [f32; 3],
     /// One over its length in unit coordinates, finite.
-    unit_inverse: [f32; 3],
+    pub unit_inverse: [f32; 3],
     /// The sides by which it enters boxes.
     near: [u32; 3],
     span: Span,
@@ -49,6 +49,20 @@ pub(super) struct UnitBox([f32; 8]);
 const UPPER: usize = 4;
 
 impl UnitBox {
+    /// The lower bounds, and a number without meaning.
+    #[inline(always)]
+    pub fn lower(&self) -> &[f32; UPPER] {
+        let (lower, _) = self.0.split_first_chunk().unwrap_or((&[0.0; UPPER], &[]));
+        lower
+    }
+
+    /// The upper bounds, likewise.
+    #[inline(always)]
+    pub fn upper(&self) -> &[f32; UPPER] {
+        let (_, upper) = self.0.split_last_chunk().unwrap_or((&[], &[0.0; UPPER]));
+        upper
+    }
+
     /// About what part of the lines through a cell of a grid meet this box too: that of the cell's sides, seen along each axis,
     /// which it covers.
     pub fn part_of_cell(&self, slices: [u32; 3], resolution: [u32; 3]) -> f64 {
@@ -154,8 +168,8 @@ impl Frame {
 /// The segments of several rays, coordinate by coordinate, with the fields of [`ClippedSegment`].
 pub(super) struct SegmentRows {
     met: [bool; ROW],
-    start: [[f32; ROW]; 3],
-    delta: [[f32; ROW]; 3],
+    pub start: [[f32; ROW]; 3],
+    pub delta: [[f32; ROW]; 3],
     scale: [[f32; ROW]; 3],
     offset: [[f32; ROW]; 3],
     unit_start: [[f32; ROW]; 3],
@@ -164,7 +178,7 @@ pub(super) struct SegmentRows {
 }
 
 impl SegmentRows {
-    const NONE: Self = {
+    pub const NONE: Self = {
         let zero = [[0.0; ROW]; 3];
         Self {
             met: [false; ROW],
@@ -177,6 +191,31 @@ impl SegmentRows {
             spans: [Span::NONE; ROW],
         }
     };
+
+    /// Of these lanes those whose rays meet the grid.
+    #[inline(always)]
+    pub fn meeting(&self, lanes: u32) -> u32 {
+        self.met.iter().zip(0..).fold(0, |bits, (met, lane)| bits | u32::from(*met) << lane) & lanes
+    }
+
+    /// The lanes whose rays meet a box anywhere.
+    #[inline(always)]
+    pub fn meets<S: Simd>(&self, s: S, UnitBox(sides): &UnitBox) -> u32 {
+        let mut met = 0;
+        for at in (0..ROW).step_by(S::LANES) {
+            let (mut enter, mut exit) = (s.splat(0.0), s.splat(ClippedSegment::LIMIT));
+            for axis in 0..3 {
+                let start = s.load(&self.unit_start[axis][at..]);
+                let inverse = s.load(&self.unit_inverse[axis][at..]);
+                let a = s.mul(s.sub(s.splat(sides[axis]), start), inverse);
+                let b = s.mul(s.sub(s.splat(sides[axis + UPPER]), start), inverse);
+                enter = s.max(enter, s.min(a, b));
+                exit = s.min(exit, s.max(a, b));
+            }
+            met |= s.bits(s.le(enter, exit)) << at;
+        }
+        met
+    }
 
     /// That of one ray, if it meets the grid.
     #[inline(always)]
@@ -299,7 +338,7 @@ impl Steps {
 // As comparisons, for `f32::min` and `f32::max` treat NaN, of which there is none, at the cost of more instructions.
 
 #[inline(always)]
-fn lesser(a: f32, b: f32) -> f32 {
+pub(super) fn lesser(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 

@@ -11,6 +11,22 @@ const PLACE: u32 = 4;
 /// Bits of a direction's coordinate besides its sign.
 const TURN: u32 = 2;
 
+/// Of so many pairs of neighbours one is looked at.
+const SAMPLE: usize = 61;
+
+/// Whether neighbours in a list mostly go the same way, as towards a light from one pixel and the next.
+pub(super) fn is_coherent(rays: &[Ray]) -> bool {
+    let pairs = rays.windows(2).step_by(SAMPLE);
+    let count = pairs.len();
+    let alike = pairs.filter(|pair| {
+        let [a, b] = [pair[0].direction, pair[1].direction];
+        let along = a.dot(b);
+        // Within a quarter of a right angle.
+        along > 0.0 && along * along > 0.85 * a.length_squared() * b.length_squared()
+    });
+    4 * alike.count() >= 3 * count
+}
+
 /// The numbers of the rays in an order by the place in the box that their origin is nearest to, then by
 /// direction. Rays from the hits of an image stay with their neighbours.
 pub(super) fn coherent(simd: Level, rays: &[Ray], bounds: &Aabb) -> Vec<u32> {
@@ -94,6 +110,20 @@ fn sort_by_digit(from: &[(u32, u32)], to: &mut [(u32, u32)], shift: u32) {
 mod tests {
     use super::*;
     use accel::Vec3;
+
+    #[test]
+    fn rays_towards_a_light_are_coherent_and_scattered_ones_are_not() {
+        let towards = |i: i32| {
+            Ray::new(Vec3::new(i as f32 * 1e-3, 0.0, 0.0), Vec3::new(0.5 - i as f32 * 1e-3, 3.0, 1.0))
+        };
+        let rays: Vec<Ray> = (0..1000).map(towards).collect();
+        assert!(is_coherent(&rays));
+        let turned =
+            |i: usize| Ray { direction: if i.is_multiple_of(2) { Vec3::X } else { Vec3::Y }, ..rays[i] };
+        assert!(!is_coherent(&(0..1000).map(turned).collect::<Vec<_>>()));
+        let nowhere = vec![Ray::new(Vec3::ZERO, Vec3::splat(f32::MAX)); 100];
+        assert!(!is_coherent(&nowhere), "what can't be told is put in order");
+    }
 
     #[test]
     fn every_ray_comes_once_and_like_comes_to_like() {
