@@ -168,3 +168,32 @@ fn neighbours_that_go_together_look_at_fewer_cells() {
     });
     assert!(2 * many.cells < alone.cells, "{} and {}", many.cells, alone.cells);
 }
+
+#[test]
+fn rays_that_meet_what_is_set_apart_look_at_no_cell() {
+    let scene = with_a_wall(3000);
+    let settings = Settings::new(Resolution::Slices([4; 3]));
+    let built = Ssm { settings, divide: None }.build(&scene, &Workload::GENERAL).unwrap();
+    assert!(built.plan().contains("the largest objects set apart"));
+    // Every third ray goes away from the wall.
+    let ray = |i: u16| {
+        let origin = Vec3::new(f32::from(i % 50) / 100.0, f32::from(i / 50) / 100.0, 0.5);
+        Ray::new(origin, if i.is_multiple_of(3) { Vec3::NEG_Z } else { Vec3::Z })
+    };
+    let all: Vec<Ray> = (0..1000).map(ray).collect();
+    let towards = RaySet::List(all.iter().copied().filter(|ray| ray.direction.z > 0.0).collect());
+    assert_eq!(built.count(&towards, true).unwrap().cells, 0);
+    compare(&scene, settings.kernel, &towards, "towards a wall", &*built);
+    compare(&scene, settings.kernel, &RaySet::List(all), "towards a wall and away", &*built);
+}
+
+/// A cloud, and a wall behind it that is longer than it.
+fn with_a_wall(count: usize) -> Scene {
+    let mut scene = cloud(count, 0.02);
+    if let Geometry::Triangles(mesh) = &mut scene.geometry {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend([(-9.0, -9.0), (9.0, -9.0), (0.0, 9.0)].map(|(x, y)| Vec3::new(x, y, 1.5)));
+        mesh.triangles.push([first, first + 1, first + 2]);
+    }
+    scene
+}

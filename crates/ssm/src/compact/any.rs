@@ -3,10 +3,11 @@
 use super::Built;
 use super::alone::walk;
 use super::beam::{Beam, VisitBeam};
-use super::chunk::Chunk;
 use super::objects::{Objects, Tested};
 use super::segment::SegmentRows;
+use super::sort;
 use accel::{Count, Nearest, Ray};
+use lanes::packet::rows;
 use lanes::{Blocks, PackedObjects, ROW, Simd};
 
 /// Groups that a beam remembers: more than a ray, for it meets more.
@@ -14,6 +15,13 @@ const TOGETHER: usize = 64;
 
 /// Rays of a chunk that are found too far from the others before the rest is taken to be so too.
 const TRIES: u32 = 3;
+
+/// Of so many pairs of neighbours one is looked at to tell whether rays go the same way.
+const PAIRS: usize = 5;
+
+/// The squared cosine of an angle of 6 degrees: rays go as beams where neighbours mostly go closer than that. At 10 degrees, rays
+/// that were put in order are often taken for such, too, though their beams cost more than they spare.
+const ALIKE: f32 = 0.99;
 
 /// Rays on their way through the cells as one.
 struct Together<'a, 'o, S, B: Blocks, C> {
@@ -56,7 +64,7 @@ impl<S: Simd, B: Blocks, C: Count> VisitBeam for Together<'_, '_, S, B, C> {
     }
 }
 
-/// Whether each ray hits anything: neighbours together, others by themselves.
+/// Whether each ray hits anything: neighbours together where rays go the same way, others by themselves.
 #[inline(always)]
 pub(super) fn any<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
     built: &Built<O>,
@@ -64,26 +72,52 @@ pub(super) fn any<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
     rays: &[Ray],
     found: &mut [Nearest],
 ) {
-    let Some(first) = rays.first() else { return };
-    let mut chunk = Chunk::new(built.blocks.one(first));
-    for (rays, found) in rays.chunks(ROW).zip(found.chunks_mut(ROW)) {
-        chunk.fill(built, objects, rays);
-        let mut alone = chunk.waiting;
-        if BOXED {
-            alone = together(built, objects, &mut chunk);
+    let Built { bricks, blocks, .. } = built;
+    let beams = BOXED && rays.len() > 1 && sort::is_coherent(rays, PAIRS, ALIKE);
+    for (own, found) in rays.chunks(ROW).zip(found.chunks_mut(ROW)) {
+        let mut waiting = apart(built, objects, own, found);
+        if waiting == 0 {
+            continue;
         }
-        while alone != 0 {
-            let lane = alone.trailing_zeros() as usize % ROW;
-            alone &= alone - 1;
-            if let Some(segment) = chunk.segments.lane(lane) {
-                walk(built, objects, &mut chunk.rays[lane], segment);
+        let segments = match own {
+            [ray] => bricks.clip(ray),
+            _ => bricks.clip_rows(objects.simd, &rows(objects.simd, own)),
+        };
+        waiting = segments.meeting(waiting);
+        if beams {
+            waiting = together(built, objects, own, found, &segments, waiting);
+        }
+        while waiting != 0 {
+            let lane = waiting.trailing_zeros() as usize % ROW;
+            waiting &= waiting - 1;
+            if let Some(segment) = segments.lane(lane) {
+                let mut tested = Tested { ray: blocks.one(&own[lane]), best: found[lane] };
+                walk(built, objects, &mut tested, segment);
+                found[lane] = tested.best;
             }
         }
-        for (found, tested) in found.iter_mut().zip(&mut chunk.rays) {
-            built.blocks.resolve(&tested.ray, &mut tested.best);
+    }
+}
+
+/// Tests rays with what is in no cell; returns the lanes of those that hit none of it.
+#[inline(always)]
+fn apart<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
+    built: &Built<O>,
+    objects: &mut Objects<'_, S, O::Blocks, C, true, BOXED>,
+    rays: &[Ray],
+    found: &mut [Nearest],
+) -> u32 {
+    let mut left = 0;
+    for (lane, (ray, found)) in rays.iter().zip(found).enumerate() {
+        *found = Nearest::new(ray.t_max);
+        if built.apart {
+            let mut tested = Tested { ray: built.blocks.one(ray), best: *found };
+            objects.test(&mut tested, 0);
             *found = tested.best;
         }
+        left |= u32::from(found.object == Nearest::NONE) << lane;
     }
+    left
 }
 
 /// Takes neighbours through the cells as one; returns the rays that are left.
@@ -91,25 +125,39 @@ pub(super) fn any<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
 fn together<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
     built: &Built<O>,
     objects: &mut Objects<'_, S, O::Blocks, C, true, BOXED>,
-    chunk: &mut Chunk<<O::Blocks as Blocks>::One>,
+    rays: &[Ray],
+    found: &mut [Nearest],
+    segments: &SegmentRows,
+    mut waiting: u32,
 ) -> u32 {
+    let Some(first) = rays.first() else { return 0 };
     let Objects { simd, cells, boxes, blocks, count } = objects;
     let mut objects = Objects { simd: *simd, cells, boxes, blocks: *blocks, count: &mut **count };
-    let (mut waiting, mut alone) = (chunk.waiting, 0u32);
+    let mut tested = [Tested { ray: built.blocks.one(first), best: Nearest::new(first.t_max) }; ROW];
+    for (tested, ray) in tested.iter_mut().zip(rays).skip(1) {
+        *tested = Tested { ray: built.blocks.one(ray), best: Nearest::new(ray.t_max) };
+    }
+    let mut alone = 0u32;
     while waiting != 0 && alone.count_ones() < TRIES {
-        let Some(beam) = Beam::of(*simd, &built.bricks, &chunk.segments, waiting) else {
+        let Some(beam) = Beam::of(*simd, &built.bricks, segments, waiting) else {
             // The first is too far from the others.
             alone |= waiting & waiting.wrapping_neg();
             waiting &= waiting - 1;
             continue;
         };
         waiting &= !beam.lanes;
-        let (segments, rays) = (&chunk.segments, &mut chunk.rays);
         let met = [u32::MAX; TOGETHER];
+        let rays = &mut tested;
         beam.walk(
             &built.bricks,
             &mut Together { objects: &mut objects, segments, rays, lanes: beam.lanes, met },
         );
+    }
+    // Rays that met what is apart do not take part.
+    for (found, tested) in found.iter_mut().zip(&tested) {
+        if tested.best.object != Nearest::NONE {
+            *found = tested.best;
+        }
     }
     alone | waiting
 }

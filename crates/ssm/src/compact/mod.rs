@@ -141,13 +141,16 @@ struct Built<O: PackedObjects> {
     /// Whether the first group is in no cell and meets every ray.
     apart: bool,
     blocks: O::Blocks,
-    /// Whether lists of rays are put in order before they are traced.
-    sort: bool,
+    /// Whether lists of rays are put in order before their nearest hits are sought, and before any hit is.
+    sort: [bool; 2],
     objects: O,
 }
 
 /// Bytes from which on putting a list of rays in order takes less time than it spares, measured on twelve scenes (docs/ssm.md).
 const CACHED: usize = 1 << 24;
+
+/// The same for nearest hits where no boxes of groups are kept and each ray tests more groups, measured on two scenes.
+const CACHED_WITHOUT_BOXES: usize = 1 << 21;
 
 /// Bytes of a brick: a position for each cell, and bits.
 const BRICK_BYTES: u128 = 4 * BRICK as u128 + 8;
@@ -217,8 +220,10 @@ impl<O: PackedObjects> Built<O> {
             Laid::new(&objects.shape(), ssm, O::bytes_of_blocks, cancel)?;
         cancel.check(ID)?;
         let blocks = objects.blocks(ID, &slots)?;
-        let mut built = Self { settings, grid, bricks, cells, boxes, apart, blocks, sort: false, objects };
-        built.sort = built.footprint().total() > CACHED;
+        let mut built =
+            Self { settings, grid, bricks, cells, boxes, apart, blocks, sort: [false; 2], objects };
+        let nearest = if built.boxes.is_empty() { CACHED_WITHOUT_BOXES } else { CACHED };
+        built.sort = [nearest, CACHED].map(|bytes| built.footprint().total() > bytes);
         Ok(built)
     }
 }

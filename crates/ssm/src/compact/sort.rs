@@ -11,20 +11,18 @@ const PLACE: u32 = 4;
 /// Bits of a direction's coordinate besides its sign.
 const TURN: u32 = 2;
 
-/// Of so many pairs of neighbours one is looked at.
-const SAMPLE: usize = 61;
-
-/// Whether neighbours in a list mostly go the same way, as towards a light from one pixel and the next.
-pub(super) fn is_coherent(rays: &[Ray]) -> bool {
-    let pairs = rays.windows(2).step_by(SAMPLE);
+/// Whether neighbours in a list mostly go the same way, as towards a light from one pixel and the next: of one pair in `sample`
+/// the squared cosine of the angle between them exceeds `alike`.
+#[inline(always)]
+pub(super) fn is_coherent(rays: &[Ray], sample: usize, alike: f32) -> bool {
+    let pairs = rays.windows(2).step_by(sample);
     let count = pairs.len();
-    let alike = pairs.filter(|pair| {
+    let close = pairs.filter(|pair| {
         let [a, b] = [pair[0].direction, pair[1].direction];
         let along = a.dot(b);
-        // Within a quarter of a right angle.
-        along > 0.0 && along * along > 0.85 * a.length_squared() * b.length_squared()
+        along > 0.0 && along * along > alike * a.length_squared() * b.length_squared()
     });
-    4 * alike.count() >= 3 * count
+    4 * close.count() >= 3 * count
 }
 
 /// The numbers of the rays in an order by the place in the box that their origin is nearest to, then by
@@ -117,12 +115,24 @@ mod tests {
             Ray::new(Vec3::new(i as f32 * 1e-3, 0.0, 0.0), Vec3::new(0.5 - i as f32 * 1e-3, 3.0, 1.0))
         };
         let rays: Vec<Ray> = (0..1000).map(towards).collect();
-        assert!(is_coherent(&rays));
+        assert!(is_coherent(&rays, 61, 0.85));
         let turned =
             |i: usize| Ray { direction: if i.is_multiple_of(2) { Vec3::X } else { Vec3::Y }, ..rays[i] };
-        assert!(!is_coherent(&(0..1000).map(turned).collect::<Vec<_>>()));
+        assert!(!is_coherent(&(0..1000).map(turned).collect::<Vec<_>>(), 61, 0.85));
         let nowhere = vec![Ray::new(Vec3::ZERO, Vec3::splat(f32::MAX)); 100];
-        assert!(!is_coherent(&nowhere), "what can't be told is put in order");
+        assert!(!is_coherent(&nowhere, 61, 0.85), "what can't be told is put in order");
+    }
+
+    #[test]
+    fn the_angle_between_neighbours_decides() {
+        // A tenth of a right angle, back and forth: a squared cosine of 0.976.
+        let turned = |i: u32| {
+            let angle = if i.is_multiple_of(2) { 0.0 } else { 0.1 * std::f32::consts::FRAC_PI_2 };
+            Ray::new(Vec3::ZERO, Vec3::new(angle.cos(), angle.sin(), 0.0) * (i + 1) as f32)
+        };
+        let rays: Vec<Ray> = (0..100).map(turned).collect();
+        assert!(is_coherent(&rays, 5, 0.97));
+        assert!(!is_coherent(&rays, 5, 0.98));
     }
 
     #[test]

@@ -14,6 +14,12 @@ const BATCH: usize = 512;
 /// Rays that are put in order together.
 const SORTED: usize = 1 << 16;
 
+/// Of so many pairs of neighbours in a list one is looked at.
+const SAMPLE: usize = 61;
+
+/// The squared cosine of a quarter of a right angle: a list whose neighbours go closer than that keeps its order.
+const ALIKE: f32 = 0.85;
+
 /// Rays traced with one instruction set, for the nearest hit or any.
 struct Batch<'a, O: PackedObjects, C, const ANY: bool> {
     built: &'a Built<O>,
@@ -69,7 +75,11 @@ impl<O: PackedObjects> Built<O> {
     ) {
         assert_eq!(rays.len(), out.len(), "one place for each ray");
         match rays {
-            RaySet::List(list) if self.sort && list.len() >= BATCH && !sort::is_coherent(list) => {
+            RaySet::List(list)
+                if self.sort[usize::from(ANY)]
+                    && list.len() >= BATCH
+                    && !sort::is_coherent(list, SAMPLE, ALIKE) =>
+            {
                 for_each_chunk(out, SORTED, &|chunk, out| {
                     let rays = &list[chunk * SORTED..][..out.len()];
                     self.in_order::<ANY, _>(rays, out, &of);
