@@ -1,4 +1,5 @@
-//! Items and tasks shared by threads, chunk by chunk.
+//! Items and tasks shared by threads, chunk by chunk. Each is a task of its own, since some take far longer than others:
+//! of an image's rows, most may show nothing.
 //!
 //! It comes as a trait object: a call for each chunk costs nothing, and rayon's part is compiled once for a
 //! type of items, not once for every structure, ray-triangle test and instruction set.
@@ -14,7 +15,7 @@ pub fn for_each_chunk<T: Send>(items: &mut [T], size: usize, work: &(dyn Fn(usiz
     if threads() == 1 {
         items.chunks_mut(size).enumerate().for_each(|(chunk, items)| work(chunk, items));
     } else {
-        items.par_chunks_mut(size).enumerate().for_each(|(chunk, items)| work(chunk, items));
+        items.par_chunks_mut(size).with_max_len(1).enumerate().for_each(|(chunk, items)| work(chunk, items));
     }
 }
 
@@ -30,7 +31,12 @@ pub fn map_chunks<T: Send, R: Send>(
     if threads() == 1 {
         items.chunks_mut(size).enumerate().map(|(chunk, items)| work(chunk, items)).collect()
     } else {
-        items.par_chunks_mut(size).enumerate().map(|(chunk, items)| work(chunk, items)).collect()
+        items
+            .par_chunks_mut(size)
+            .with_max_len(1)
+            .enumerate()
+            .map(|(chunk, items)| work(chunk, items))
+            .collect()
     }
 }
 
@@ -39,7 +45,7 @@ pub fn map_tasks<R: Send>(tasks: usize, work: &(dyn Fn(usize) -> R + Sync)) -> V
     if threads() == 1 {
         (0..tasks).map(work).collect()
     } else {
-        (0..tasks).into_par_iter().map(work).collect()
+        (0..tasks).into_par_iter().with_max_len(1).map(work).collect()
     }
 }
 

@@ -44,6 +44,12 @@ impl<I: Iterator> Serial<I> {
         self
     }
 
+    /// Does nothing: there are no tasks to keep small.
+    #[must_use]
+    pub fn with_max_len(self, _: usize) -> Self {
+        self
+    }
+
     /// See [`Iterator::enumerate`].
     pub fn enumerate(self) -> Serial<impl Iterator<Item = (usize, I::Item)>> {
         Serial(self.0.enumerate())
