@@ -78,7 +78,8 @@ pub enum RayError {
 }
 
 /// Where a ray meets an object, and which.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct Hit {
     /// The ray's parameter at the hit.
     pub t: f32,
@@ -150,6 +151,12 @@ impl Nearest {
         bytemuck::cast_ref(self)
     }
 
+    /// The inverse of [`Nearest::quad`].
+    #[inline(always)]
+    pub fn of_quad(quad: [f32; 4]) -> Self {
+        bytemuck::cast(quad)
+    }
+
     /// Takes a hit on `object` if it comes before what is here.
     #[inline]
     pub fn offer(&mut self, object: u32, surface: Surface) {
@@ -169,7 +176,8 @@ impl Nearest {
     /// The hit, if there is one.
     #[inline]
     pub fn hit(&self) -> Option<Hit> {
-        (self.object != Self::NONE).then_some(Hit { t: self.t, object: self.object, u: self.u, v: self.v })
+        // As a whole, so that it is copied as one.
+        (self.object != Self::NONE).then_some(bytemuck::cast(*self))
     }
 }
 

@@ -323,14 +323,11 @@ impl<S: Simd> NearestPacket<S> {
     /// Each lane's result, in the order of lanes.
     #[inline(always)]
     pub fn store(&self, s: S, to: &mut [Nearest]) {
-        let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
-        let mut object = [0; ROW];
-        s.store(self.t, &mut t);
-        s.store(self.u, &mut u);
-        s.store(self.v, &mut v);
-        s.store_u(self.object, &mut object);
-        for (lane, nearest) in to.iter_mut().enumerate().take(S::LANES) {
-            *nearest = Nearest { t: t[lane], object: object[lane], u: u[lane], v: v[lane] };
+        let mut objects = [0; ROW];
+        s.store_u(self.object, &mut objects);
+        let quads = s.store_quads([self.t, s.load(&objects.map(f32::from_bits)), self.u, self.v]);
+        for (nearest, quad) in to.iter_mut().zip(&quads[..S::LANES]) {
+            *nearest = Nearest::of_quad(*quad);
         }
     }
 }

@@ -106,7 +106,7 @@ impl<O: PackedObjects, C: Count> Task for Band<'_, O, C> {
             tile.cols = maps.slices(col, maps.raster.cols);
             tile.open.fill(false);
             tile.closed = tile.rows.len() * tile.cols.len();
-            tile.trace(s, maps, (self.row, col), &mut self.count);
+            tile.trace(s, maps, (self.row, col), self.hits, &mut self.count);
             tile.resolve(s, maps);
             tile.end(s, maps, self.hits);
         }
@@ -137,9 +137,10 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
         }
     }
 
-    /// Makes a cell's rays. Lanes outside the image are switched off.
+    /// Makes a cell's rays. Lanes outside the image are switched off. Where the cell's hits will be written is asked for from
+    /// memory: an image is far larger than the caches, and its rows are far apart.
     #[inline(always)]
-    fn open<O: PackedObjects>(&mut self, s: S, maps: &RasterMaps<O>, cell: usize)
+    fn open<O: PackedObjects>(&mut self, s: S, maps: &RasterMaps<O>, cell: usize, hits: &[Option<Hit>])
     where
         O::Blocks: Blocks<Many<S> = M>,
     {
@@ -147,6 +148,13 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
         let row = (self.rows.start + (cell / self.cols.len()) as u32) * THICKNESS;
         let col = (self.cols.start + (cell % self.cols.len()) as u32) * THICKNESS;
         let inside = row + THICKNESS <= raster.rows && col + THICKNESS <= raster.cols;
+        for line in hits
+            .chunks_exact(raster.cols as usize)
+            .skip((row - self.rows.start * THICKNESS) as usize)
+            .take(THICKNESS as usize)
+        {
+            prefetch(&line[col as usize..(col + THICKNESS).min(raster.cols) as usize]);
+        }
         for packet in 0..Self::PACKETS {
             let (mut x, mut y, mut t) = ([0.0; ROW], [0.0; ROW], [f32::INFINITY; ROW]);
             for lane in 0..S::LANES {
@@ -171,6 +179,7 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
         s: S,
         maps: &RasterMaps<O>,
         (row, col): (u32, u32),
+        hits: &[Option<Hit>],
         count: &mut C,
     ) where
         O::Blocks: Blocks<Many<S> = M>,
@@ -221,7 +230,7 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
                         if candidates != 0 {
                             count.cells(1);
                             if !self.open[cell] {
-                                self.open(s, maps, cell);
+                                self.open(s, maps, cell, hits);
                             }
                             self.cell(s, maps, &mut here, (cell, [x, y]), candidates, count);
                         }
@@ -338,7 +347,7 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
         let right = width.min((self.cols.end * THICKNESS) as usize);
         for (row, hits) in hits.chunks_mut(THICKNESS as usize * width).enumerate() {
             if self.closed == self.rows.len() * self.cols.len() {
-                hits.chunks_exact_mut(width).for_each(|line| line[left..right].fill(None));
+                hits.chunks_exact_mut(width).for_each(|line| miss(&mut line[left..right]));
                 continue;
             }
             for col in 0..self.cols.len() {
@@ -346,25 +355,28 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
                 let from = left + col * THICKNESS as usize;
                 let to = right.min(from + THICKNESS as usize);
                 if !self.open[cell] {
-                    hits.chunks_exact_mut(width).for_each(|line| line[from..to].fill(None));
+                    hits.chunks_exact_mut(width).for_each(|line| miss(&mut line[from..to]));
                     continue;
                 }
-                // Row by row of coordinates: hits put together in lanes would be written twice.
-                let (mut t, mut u, mut v, mut object) = ([0.0; CELL], [0.0; CELL], [0.0; CELL], [0; CELL]);
-                for packet in 0..Self::PACKETS {
-                    let (first, best) = (packet * S::LANES, &self.best[cell * Self::PACKETS + packet]);
-                    s.store(best.t, &mut t[first..]);
-                    s.store(best.u, &mut u[first..]);
-                    s.store(best.v, &mut v[first..]);
-                    s.store_u(best.object, &mut object[first..]);
+                let mut nearest = [Nearest::new(0.0); CELL];
+                for (packet, nearest) in nearest.chunks_exact_mut(S::LANES).enumerate() {
+                    self.best[cell * Self::PACKETS + packet].store(s, nearest);
                 }
-                for (y, line) in hits.chunks_exact_mut(width).enumerate() {
-                    for (x, hit) in line[from..to].iter_mut().enumerate() {
-                        let i = y * THICKNESS as usize + x;
-                        *hit = Nearest { t: t[i], object: object[i], u: u[i], v: v[i] }.hit();
+                let nearest = nearest.chunks_exact(THICKNESS as usize);
+                for (line, nearest) in hits.chunks_exact_mut(width).zip(nearest) {
+                    for (hit, nearest) in line[from..to].iter_mut().zip(nearest) {
+                        *hit = nearest.hit();
                     }
                 }
             }
         }
+    }
+}
+
+/// Writes that nothing is hit. Copied, because single marks that are far from each other take longer to write than whole lines.
+fn miss(hits: &mut [Option<Hit>]) {
+    static NONE: [Option<Hit>; 32] = [None; 32];
+    for hits in hits.chunks_mut(NONE.len()) {
+        hits.copy_from_slice(&NONE[..hits.len()]);
     }
 }
