@@ -11,7 +11,7 @@ mod simd;
 pub mod split;
 mod tile;
 
-pub use bits::ones;
+pub use bits::{next_bit, next_lane, ones};
 pub use blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects, Shared};
 pub use ids::Ids;
 pub use one_by_one::{OneByOne, Unpacked, one_by_one};

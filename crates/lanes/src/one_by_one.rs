@@ -1,5 +1,6 @@
 //! Blocks of objects that know no packed form.
 
+use crate::bits::{next_bit, next_lane};
 use crate::blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects};
 use crate::packet::{Lanes, NearestPacket, Packet};
 use crate::simd::{ROW, Simd};
@@ -65,10 +66,8 @@ impl<O: Objects> Blocks for OneByOne<O> {
 
     #[inline(always)]
     fn closest<S: Simd>(&self, _: S, block: usize, mut mask: u64, ray: &Ray, best: &mut Nearest) {
-        while mask != 0 {
-            let slot = block * BLOCK + mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            let object = self.order[slot];
+        while let Some(place) = next_bit(&mut mask) {
+            let object = self.order[block * BLOCK + place];
             if object != EMPTY_SLOT {
                 self.objects.closest(object, ray, best);
             }
@@ -97,9 +96,7 @@ pub fn one_by_one<O: Objects, S: Simd>(
     best.store(s, &mut before);
     let (mut t, mut u, mut v) = ([0.0; ROW], [0.0; ROW], [0.0; ROW]);
     let mut wins = 0;
-    while lanes != 0 {
-        let lane = lanes.trailing_zeros() as usize % ROW;
-        lanes &= lanes - 1;
+    while let Some(lane) = next_lane(&mut lanes) {
         let mut nearest = before[lane];
         if nearest.t == f32::NEG_INFINITY {
             continue;

@@ -6,7 +6,7 @@ use crate::objects::{Precision, Solids};
 use crate::rows::{Cones, Packing, Prepared, Spheres, Triangles, load, splat};
 use accel::{BuildError, Nearest, Objects, Ray};
 use lanes::packet::{NearestPacket, Packet, Pairs, RayRows};
-use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd, one_by_one};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, Ids, PackedObjects, ROW, Scalar, Simd, next_lane, one_by_one};
 
 /// Solids in blocks. Each row of 16 slots has a group of rows for each packed kind that is in it.
 #[derive(Clone, Debug)]
@@ -53,9 +53,8 @@ impl<'s> SolidBlocks<'s> {
 
     #[inline(always)]
     fn one_by_one(&self, first: usize, mut mask: u32, ray: &Ray, best: &mut Nearest) {
-        while mask != 0 {
-            let object = self.ids.get(first + mask.trailing_zeros() as usize);
-            mask &= mask - 1;
+        while let Some(lane) = next_lane(&mut mask) {
+            let object = self.ids.get(first + lane);
             if object != EMPTY_SLOT {
                 self.solids.closest(object, ray, best);
             }
@@ -89,9 +88,7 @@ impl<'s> SolidBlocks<'s> {
         }
         let plain = s.bits(found.plain);
         let rows = found.lanes.rows(s);
-        while hits != 0 {
-            let at = hits.trailing_zeros() as usize;
-            hits &= hits - 1;
+        while let Some(at) = next_lane(&mut hits) {
             let (object, t) = (self.ids.get(part.slot + at), rows.t[at]);
             if precedes(t, object, best) && (plain >> at & 1 != 0 || self.solids.holds(object, &ray.ray, t)) {
                 best.offer(object, rows.surface(at));
@@ -124,9 +121,7 @@ impl<'s> SolidBlocks<'s> {
     /// The `unsure` lanes whose hits don't satisfy the hit-in-padded-bounds invariant.
     pub(crate) fn beside(&self, object: u32, mut unsure: u32, rays: &RayRows, t: &[f32; ROW]) -> u32 {
         let mut beside = 0;
-        while unsure != 0 {
-            let lane = unsure.trailing_zeros() as usize % ROW;
-            unsure &= unsure - 1;
+        while let Some(lane) = next_lane(&mut unsure) {
             beside |= u32::from(!self.solids.holds(object, &rays.ray(lane), t[lane])) << lane;
         }
         beside

@@ -7,7 +7,7 @@ use crate::paired::{Group, Rays, values};
 use crate::rows::Packing;
 use accel::{Nearest, Ray};
 use lanes::packet::Pairs;
-use lanes::{BLOCK, EMPTY_SLOT, ROW, Simd};
+use lanes::{BLOCK, EMPTY_SLOT, ROW, Simd, next_lane};
 
 impl SolidBlocks<'_> {
     /// Tests rays and objects in pairs: those of packed kinds and near rays in lanes, the others one by one.
@@ -47,9 +47,8 @@ impl SolidBlocks<'_> {
                 self.kind_in_pairs(s, (&self.triangles, pairs.block), &group, wanted, &mut rays, best);
                 left &= !wanted;
             }
-            while left != 0 {
-                let (slot, place) = group.pair(left.trailing_zeros() as usize);
-                left &= left - 1;
+            while let Some(lane) = next_lane(&mut left) {
+                let (slot, place) = group.pair(lane);
                 let object = self.ids.get(pairs.block * BLOCK + slot);
                 if object != EMPTY_SLOT && rays.t_max[place] != f32::NEG_INFINITY {
                     self.one_in_pair(object, &rays.rows.ray(place), &mut best[place]);
@@ -88,9 +87,7 @@ impl SolidBlocks<'_> {
         }
         let plain = s.bits(found.plain);
         let rows = found.lanes.rows(s);
-        while hits != 0 {
-            let lane = hits.trailing_zeros() as usize % ROW;
-            hits &= hits - 1;
+        while let Some(lane) = next_lane(&mut hits) {
             let (slot, place) = group.pair(lane);
             let object = self.ids.get(block * BLOCK + slot);
             let (t, best) = (rows.t[lane], &mut best[place]);

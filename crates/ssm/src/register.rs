@@ -4,6 +4,7 @@
 use crate::settings::Settings;
 use accel::parallel::prelude::*;
 use accel::{BuildError, Cancel};
+use lanes::ones;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
@@ -80,14 +81,7 @@ pub(crate) struct Word {
 
 impl Word {
     fn cells(self) -> impl Iterator<Item = usize> {
-        let mut bits = self.bits;
-        std::iter::from_fn(move || {
-            (bits != 0).then(|| {
-                let place = bits.trailing_zeros();
-                bits &= bits - 1;
-                (self.first + place) as usize
-            })
-        })
+        ones(self.bits).map(move |place| self.first as usize + place)
     }
 }
 

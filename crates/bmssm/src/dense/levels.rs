@@ -2,6 +2,7 @@
 
 use super::{Axis, SpaceMaps};
 use accel::Count;
+use lanes::next_bit;
 
 /// More levels than any number of objects has: each has a 64th of the words of the one below.
 const MAX: usize = 6;
@@ -44,16 +45,14 @@ impl<'a> Descent<'a> {
     #[inline(always)]
     pub fn next(&mut self, count: &mut impl Count) -> Option<usize> {
         loop {
-            let bits = &mut self.bits[self.level - 1];
-            if *bits == 0 {
+            let Some(bit) = next_bit(&mut self.bits[self.level - 1]) else {
                 if self.level == self.maps.above.len() {
                     return None;
                 }
                 self.level += 1;
                 continue;
-            }
-            let below = self.place[self.level - 1] * 64 + bits.trailing_zeros() as usize;
-            *bits &= *bits - 1;
+            };
+            let below = self.place[self.level - 1] * 64 + bit;
             if self.level == 1 {
                 return Some(below);
             }

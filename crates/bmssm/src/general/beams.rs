@@ -13,7 +13,7 @@ use super::visit::Visit;
 use accel::grid::Span;
 use accel::{Counters, Nearest, Ray};
 use lanes::packet::rows;
-use lanes::{PackedObjects, ROW, Simd, Task};
+use lanes::{PackedObjects, ROW, Simd, Task, next_lane};
 
 impl<O: PackedObjects> General<O> {
     /// Takes the beams of one octant through all that they meet.
@@ -105,9 +105,7 @@ impl<O: PackedObjects> General<O> {
         }
         // What a ray's nearest hit allows; where there is none yet, all.
         let mut limit = TraversalState::DONE;
-        while on != 0 {
-            let lane = on.trailing_zeros() as usize % ROW;
-            on &= on - 1;
+        while let Some(lane) = next_lane(&mut on) {
             let here = if rays.object[lane] == Nearest::NONE {
                 LIMIT
             } else {

@@ -71,7 +71,7 @@ impl BlockMaps {
         // Looked up rather than branched on: which axis it is can't be foreseen.
         let axis = usize::from(size[1] > size[0]);
         let axis = if size[2] > size[axis] { 2 } else { axis };
-        let (b, c) = ([1, 2, 0][axis], [2, 0, 1][axis]);
+        let (b, c) = following(axis);
         let begin = if way[axis] < 0.0 { to } else { from };
         let per_slice = if size[axis] > 0.0 { 1.0 / way[axis] } else { 0.0 };
         let path = Path {
@@ -80,29 +80,33 @@ impl BlockMaps {
             start: [begin[b], begin[c]],
             slope: [way[b] * per_slice, way[c] * per_slice],
         };
-        s.path_union([&self.maps[axis], &self.maps[b], &self.maps[c]], &path)
+        s.path_union(self.starting_with(axis), &path)
     }
 
     /// The candidates of two of the paths, along each of which another axis may be the dominant one.
     #[inline(always)]
-    pub(super) fn along<S: Simd>(
+    pub(super) fn along_both<S: Simd>(
         &self,
         s: S,
         axes: [usize; 2],
         paths: &PathRows,
         lanes: [usize; 2],
     ) -> [u64; 2] {
-        let maps = &self.maps;
-        let maps = axes.map(|axis| [&maps[[0, 1, 2][axis]], &maps[[1, 2, 0][axis]], &maps[[2, 0, 1][axis]]]);
-        s.path_unions(maps, paths, lanes)
+        s.path_unions(axes.map(|axis| self.starting_with(axis)), paths, lanes)
     }
 
     /// The candidates within a hull that is described along `axis`.
     #[inline(always)]
     pub(super) fn within<S: Simd>(&self, s: S, axis: usize, hull: &Hull) -> u64 {
-        let maps = &self.maps;
-        let (axis, b, c) = ([0, 1, 2][axis], [1, 2, 0][axis], [2, 0, 1][axis]);
-        s.hull_union([&maps[axis], &maps[b], &maps[c]], hull)
+        s.hull_union(self.starting_with(axis), hull)
+    }
+
+    /// The maps in the order in which what is described along `axis` is held against them: that axis's, then those of the two
+    /// that follow it.
+    #[inline(always)]
+    fn starting_with(&self, axis: usize) -> [&[u64; SLICES]; 3] {
+        let (b, c) = following(axis);
+        [&self.maps[axis], &self.maps[b], &self.maps[c]]
     }
 
     /// Two unit coordinates on an axis as the block's own.
@@ -120,4 +124,10 @@ impl BlockMaps {
             (p[2] - self.origin[2]) * self.density[2],
         ]
     }
+}
+
+/// The two axes after one, going round.
+#[inline(always)]
+fn following(axis: usize) -> (usize, usize) {
+    ([1, 2, 0][axis], [2, 0, 1][axis])
 }

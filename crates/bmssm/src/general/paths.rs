@@ -5,7 +5,7 @@ use super::maps::BlockMaps;
 use super::scratch::PairList;
 use super::state::TraversalState;
 use lanes::path::PathRows;
-use lanes::{BLOCK, ROW, Row, Simd, Task};
+use lanes::{BLOCK, ROW, Row, Simd, Task, next_lane};
 
 /// The candidates of up to `LANES` rays in a block, R & S & T along the path of each.
 pub(super) struct Along<'a> {
@@ -32,14 +32,11 @@ impl Task for Along<'_> {
         let (paths, local) = Paths::of(s, maps, &chosen, ids.len());
         let mut masks = [0; ROW];
         let mut met = paths.met;
-        while met != 0 {
-            // Two at a time, the last one twice.
-            let first = met.trailing_zeros() as usize % ROW;
-            met &= met - 1;
-            let second = if met == 0 { first } else { met.trailing_zeros() as usize % ROW };
-            met &= met.wrapping_sub(1);
+        while let Some(first) = next_lane(&mut met) {
+            // Two at a time, a last odd one twice.
+            let second = next_lane(&mut met).unwrap_or(first);
             let lanes = [first, second];
-            let found = maps.along(s, lanes.map(|lane| paths.axes[lane] as usize), &paths.rows, lanes);
+            let found = maps.along_both(s, lanes.map(|lane| paths.axes[lane] as usize), &paths.rows, lanes);
             let len = if first == second { 1 } else { 2 };
             for (lane, candidates) in lanes.into_iter().zip(found).take(len) {
                 if let Some(pairs) = &mut pairs {

@@ -13,7 +13,7 @@ use super::test::{ResolveEach, TestOne, TestPairs};
 use super::tree::Node;
 use super::visit::Visit;
 use accel::Ray;
-use lanes::{Blocks, PackedObjects, ROW, Simd, prefetch};
+use lanes::{Blocks, PackedObjects, ROW, Simd, next_lane, prefetch};
 
 /// From this many blocks on, rays that begin within the scene in many directions are listed together: over fewer, lists by octant
 /// fill as well, and visits that know their octant are shorter.
@@ -157,9 +157,7 @@ impl<O: PackedObjects> General<O> {
                     }
                 }
             }
-            while changed != 0 {
-                let lane = changed.trailing_zeros() as usize % ROW;
-                changed &= changed - 1;
+            while let Some(lane) = next_lane(&mut changed) {
                 states[usize::from(ids[lane])].start[3] = limits[lane];
             }
         }

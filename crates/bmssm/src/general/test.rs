@@ -4,7 +4,7 @@ use super::beam::BeamRays;
 use super::scratch::PairList;
 use accel::{Nearest, Ray};
 use lanes::packet::{Packet, Pairs};
-use lanes::{BLOCK, Blocks, ROW, Simd, Task};
+use lanes::{BLOCK, Blocks, ROW, Simd, Task, next_bit};
 
 /// Tests pairs of rays and objects. Answers the rays' nearest hits.
 pub(super) struct TestPairs<'a, B> {
@@ -98,9 +98,9 @@ impl<B: Blocks> Task for TestBeam<'_, B> {
             }
             let many = objects.many(s, &rays.packet(s, at));
             let mut left = candidates;
-            while left != 0 && on != 0 {
-                let slot = left.trailing_zeros() as usize;
-                left &= left - 1;
+            while on != 0
+                && let Some(slot) = next_bit(&mut left)
+            {
                 tested.tests += u64::from(on.count_ones());
                 objects.packet(s, block * BLOCK + slot, &many, &mut best);
                 if any {

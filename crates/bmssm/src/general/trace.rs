@@ -8,7 +8,7 @@ use super::tree::{Node, WIDTH};
 use accel::grid::Segment;
 use accel::tolerance::LIMIT_S;
 use accel::{Nearest, Ray};
-use lanes::{Blocks, PackedObjects, ROW, Simd};
+use lanes::{Blocks, PackedObjects, ROW, Simd, next_lane};
 
 /// A ray in the unit coordinates of the scene, as `start + s·delta` with s from 0 to 1.
 #[derive(Clone, Copy, Debug)]
@@ -179,24 +179,16 @@ fn nearest_child<S: Simd>(
         s.store(enter, &mut enters[at..]);
         s.store(exit, &mut exits[at..]);
     }
-    let child = |met: u32| {
-        let lane = met.trailing_zeros() as usize & (WIDTH - 1);
-        Waiting { enter: enters[lane], exit: exits[lane], what: node.children[lane] }
-    };
-    if met == 0 {
-        return None;
-    }
-    let mut nearest = child(met);
-    met &= met - 1;
+    let child = |lane: usize| Waiting { enter: enters[lane], exit: exits[lane], what: node.children[lane] };
+    let mut nearest = child(next_lane(&mut met)?);
     if met == 0 {
         return Some(nearest);
     }
     // The farthest first; what comes nearer than all so far takes the place of the nearest.
     let room = stack.room();
     let mut len = 0;
-    while met != 0 {
-        let mut other = child(met);
-        met &= met - 1;
+    while let Some(lane) = next_lane(&mut met) {
+        let mut other = child(lane);
         if other.enter < nearest.enter {
             (other, nearest) = (nearest, other);
         }

@@ -5,7 +5,9 @@ use super::{RasterMaps, THICKNESS};
 use accel::parallel::map_chunks;
 use accel::{Common, Count, Counters, Hit, Nearest, NoCount};
 use lanes::packet::{NearestPacket, Packet};
-use lanes::{BLOCK, Blocks, PackedObjects, ROW, Row, Shared, Simd, Task, Tile, prefetch};
+use lanes::{
+    BLOCK, Blocks, PackedObjects, ROW, Row, Shared, Simd, Task, Tile, next_bit, next_lane, prefetch,
+};
 use std::ops::Range;
 
 /// Pixels where two slices meet.
@@ -193,9 +195,8 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
         for (i, (r, c)) in maps.tiles.of(row, col).enumerate() {
             count.words(2);
             let mut seen = r & c;
-            while seen != 0 {
-                let at = i * 64 + seen.trailing_zeros() as usize;
-                seen &= seen - 1;
+            while let Some(bit) = next_bit(&mut seen) {
+                let at = i * 64 + bit;
                 let block = &maps.blocks[at];
                 if block.depth[0] > farthest {
                     return;
@@ -298,9 +299,8 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
             for packet in packets.clone() {
                 let (rays, mut best) = (&self.rays[packet], self.best[packet]);
                 let mut bits = bits;
-                while bits != 0 {
-                    let slot = first + bits.trailing_zeros() as usize;
-                    bits &= bits - 1;
+                while let Some(lane) = next_lane(&mut bits) {
+                    let slot = first + lane;
                     maps.geometry.packet_prepared(
                         s,
                         Shared { slot, common: &block.common, rows },

@@ -30,6 +30,7 @@ use registers::entered;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use registers::{intrinsic, registers};
 
+use crate::bits::next_lane;
 use accel::settings::one_of;
 
 /// Lanes in a row of packed geometry: the widest implementation's width, a multiple of all.
@@ -281,10 +282,8 @@ pub trait Simd: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn distribute(self, ids: &[u16; SHARE], marks: &[u16; SHARE], lists: &mut Lists) {
         for (id, marks) in ids.iter().zip(marks) {
-            let mut marks = *marks;
-            while marks != 0 {
-                let list = marks.trailing_zeros() as usize % ROW;
-                marks &= marks - 1;
+            let mut marks = u32::from(*marks);
+            while let Some(list) = next_lane(&mut marks) {
                 lists.ids[list * lists.stride + lists.lens[list] as usize] = *id;
                 lists.lens[list] += 1;
             }

@@ -8,7 +8,7 @@ use super::{
 };
 use accel::{Ray, Vec3};
 use lanes::packet::{Lanes, Packet, Vec3Lanes, splat3};
-use lanes::{ROW, Simd};
+use lanes::{ROW, Simd, next_lane};
 
 /// Woop, Benthin and Wald's test, two-sided: a ray through a closed mesh never slips
 /// between two triangles that share an edge or a corner.
@@ -231,9 +231,7 @@ fn in_double<S: Simd>(s: S, edges: Vec3Lanes<S>, corners: [Vec3Lanes<S>; 3], on_
 /// Writes edge functions to rows 0 to 2 from the x and y of three corners in rows 3 to 8.
 #[cold]
 fn edges_in_double(rows: &mut [[f32; ROW]; 9], mut on_edge: u32) {
-    while on_edge != 0 {
-        let lane = on_edge.trailing_zeros() as usize;
-        on_edge &= on_edge - 1;
+    while let Some(lane) = next_lane(&mut on_edge) {
         let at = |row: usize| [f64::from(rows[row][lane]), f64::from(rows[row + 1][lane])];
         let edge = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1] - p[1] * q[0]) as f32;
         let (a, b, c) = (at(3), at(5), at(7));

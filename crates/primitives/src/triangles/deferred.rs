@@ -1,16 +1,16 @@
 //! Tests of kernels that tell what is certain: hits wait until the nearest is known.
 
+use super::TriangleBlocks;
 #[cfg(doc)]
 use super::frame::Frame;
 use super::frame::Limits;
 use super::pairs::PairRays;
 use super::pending::{Floors, PendingHit, defer, lower_bound};
 use super::search::{Candidates, Next, OneRay, PreparedSlot, Rays, Search, Slot};
-use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Deferral, Deferred, Floats, Packed};
 use accel::{Nearest, Objects, Ray, Surface};
 use lanes::packet::{Bounds, Lanes, NearestPacket, Packet, Pairs};
-use lanes::{Blocks, ROW, Row, Scalar, Simd};
+use lanes::{Blocks, ROW, Row, Scalar, Simd, next_lane};
 
 impl<K: Deferral<Storage = Floats>> Search<K> for Deferred {
     const LIMIT_ROWS: usize = 0;

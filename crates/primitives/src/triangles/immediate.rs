@@ -2,12 +2,12 @@
 
 use super::frame::Limits;
 use super::search::{Candidates, Next, OneRay, Rays, Search};
-use super::{Scratch, TriangleBlocks, next_lane};
+use super::{Scratch, TriangleBlocks};
 use crate::Kernel;
 use crate::kernel::{Immediate, Packed};
 use accel::{Nearest, Surface};
 use lanes::packet::{Lanes, NearestPacket};
-use lanes::{ROW, Simd};
+use lanes::{ROW, Simd, next_lane};
 
 impl<K: Kernel> Search<K> for Immediate {}
 

@@ -1,13 +1,13 @@
 //! Rays and triangles in pairs, one in each lane, each decided at once.
 
+use super::TriangleBlocks;
 use super::frame::LimitLanes;
 use super::pairs::PairRays;
 use super::search::{Candidates, Search};
-use super::{TriangleBlocks, next_lane};
 use crate::kernel::{Floats, InPairs, Paired};
 use accel::{Nearest, Ray};
 use lanes::packet::{Packet, Pairs};
-use lanes::{Blocks, ROW, Simd};
+use lanes::{Blocks, ROW, Simd, next_lane};
 
 impl<K: Paired<Storage = Floats>> Search<K> for InPairs {
     const IN_PAIRS: bool = true;

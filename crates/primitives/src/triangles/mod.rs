@@ -141,14 +141,6 @@ pub struct TriangleBlocks<'s, K: Kernel> {
     in_place: bool,
 }
 
-/// The lowest bit as a lane, taken off.
-#[inline(always)]
-fn next_lane(bits: &mut u32) -> Option<usize> {
-    let lane = bits.trailing_zeros() as usize;
-    *bits &= bits.wrapping_sub(1);
-    (lane < ROW).then_some(lane)
-}
-
 /// Rows that hold the corners of triangles.
 const CORNER_ROWS: usize = 9;
 

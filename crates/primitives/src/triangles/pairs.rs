@@ -5,7 +5,7 @@ use super::{CORNER_ROWS, TriangleBlocks};
 use crate::kernel::{Floats, Kernel, Many, Permuted};
 use accel::{MeshRef, Nearest, Ray};
 use lanes::packet::{Packet, Pairs, RayRows, Vec3Lanes};
-use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, Simd};
+use lanes::{BLOCK, EMPTY_SLOT, ROW, Row, Simd, next_bit};
 
 /// The rays of pairs, prepared.
 pub(super) struct PairRays<K: Kernel, S: Simd> {
@@ -201,9 +201,10 @@ impl<K: Kernel> TriangleBlocks<'_, K> {
         set: &mut super::search::Candidates<K>,
     ) -> ([u32; ROW], usize) {
         let (mut chosen, mut len) = ([0; ROW], 0);
-        while set.mask != 0 && len < S::LANES {
-            let object = self.ids.get(set.block * BLOCK + set.mask.trailing_zeros() as usize);
-            set.mask &= set.mask - 1;
+        while len < S::LANES
+            && let Some(place) = next_bit(&mut set.mask)
+        {
+            let object = self.ids.get(set.block * BLOCK + place);
             if object != EMPTY_SLOT {
                 chosen[len] = object;
                 len += 1;

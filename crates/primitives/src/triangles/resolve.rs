@@ -1,13 +1,12 @@
 //! Hits that waited, resolved.
 
 use super::TriangleBlocks;
-use super::next_lane;
 use super::pending::{PendingHit, load_nearest, marked, pending};
 use super::search::OneRay;
 use crate::kernel::{Deferral, Floats};
 use accel::{Nearest, Ray, Surface};
 use lanes::packet::{Lanes, NearestPacket, Packet, Vec3Lanes};
-use lanes::{ROW, Scalar, Simd};
+use lanes::{ROW, Scalar, Simd, next_lane};
 
 impl<K: Deferral<Storage = Floats>> TriangleBlocks<'_, K> {
     /// Resolves the hit that waits, if one does.

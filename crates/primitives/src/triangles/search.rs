@@ -6,7 +6,7 @@ use crate::Kernel;
 use crate::kernel::{Many, Packed, Preparation, Prepared};
 use accel::{Nearest, Objects, Ray};
 use lanes::packet::{Lanes, NearestPacket, Packet, Pairs};
-use lanes::{BLOCK, Blocks, EMPTY_SLOT, ROW, Row, Simd};
+use lanes::{BLOCK, Blocks, EMPTY_SLOT, ROW, Row, Simd, next_bit};
 
 /// Kernels that triangles in blocks are tested by: those whose [`Kernel::Search`] is one.
 pub trait TriangleKernel: Kernel<Search: Search<Self>> {}
@@ -125,9 +125,10 @@ pub trait Search<K: Kernel>: 'static {
         let blocks = set.blocks;
         let _ = s;
         let mut mask = set.mask;
-        while mask != 0 && !(any && best.object != Nearest::NONE) {
-            let object = blocks.ids.get(set.block * BLOCK + mask.trailing_zeros() as usize);
-            mask &= mask - 1;
+        while !(any && best.object != Nearest::NONE)
+            && let Some(place) = next_bit(&mut mask)
+        {
+            let object = blocks.ids.get(set.block * BLOCK + place);
             if object != EMPTY_SLOT {
                 blocks.triangles.closest(object, ray, best);
             }

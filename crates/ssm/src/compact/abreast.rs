@@ -5,7 +5,7 @@
 
 use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT};
 use super::segment::{ClippedSegment, greater, lesser};
-use lanes::{ROW, Simd};
+use lanes::{ROW, Simd, next_lane};
 
 /// A value for each lane.
 pub(super) type Lanes<T> = [T; ROW];
@@ -137,9 +137,7 @@ impl Walks {
         let visited = nonzero(s, &occupied) & self.active;
         let descended = nonzero(s, &divided) & visited;
         let mut left = descended;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize % ROW;
-            left &= left - 1;
+        while let Some(lane) = next_lane(&mut left) {
             self.enter[lane] = before[lane];
             let brick = visit.brick(numbers[lane] as usize);
             self.descend(grid, lane, [cell[0][lane], cell[1][lane], cell[2][lane]], brick);
@@ -155,9 +153,7 @@ impl Walks {
         self.entering = leaves & self.active & !descended;
         if top > 0 {
             let mut leaving = self.entering;
-            while leaving != 0 {
-                let lane = leaving.trailing_zeros() as usize % ROW;
-                leaving &= leaving - 1;
+            while let Some(lane) = next_lane(&mut leaving) {
                 if self.shift[lane] < top && self.ascend(grid, lane, crossed[lane]) {
                     self.entering &= !(1 << lane);
                 }
@@ -184,9 +180,7 @@ impl Walks {
         let mut entering = self.entering;
         let mut enters = [0u32; ROW];
         let mut full = 0;
-        while entering != 0 {
-            let lane = entering.trailing_zeros() as usize % ROW;
-            entering &= entering - 1;
+        while let Some(lane) = next_lane(&mut entering) {
             let bits = grid.occupied[index[lane] as usize];
             self.bits[lane] = bits;
             self.divided[lane] = grid.divided_cells(index[lane]);

@@ -8,7 +8,7 @@ use super::segment::SegmentRows;
 use super::sort;
 use accel::{Count, Nearest, Ray};
 use lanes::packet::rows;
-use lanes::{Blocks, PackedObjects, ROW, Simd};
+use lanes::{Blocks, PackedObjects, ROW, Simd, next_lane};
 
 /// Groups that a beam remembers: more than a ray, for it meets more.
 const TOGETHER: usize = 64;
@@ -46,9 +46,7 @@ impl<S: Simd, B: Blocks, C: Count> VisitBeam for Together<'_, '_, S, B, C> {
             }
             let mut met =
                 self.segments.meets(self.objects.simd, &self.objects.boxes[group as usize]) & self.lanes;
-            while met != 0 {
-                let lane = met.trailing_zeros() as usize % ROW;
-                met &= met - 1;
+            while let Some(lane) = next_lane(&mut met) {
                 self.objects.test(&mut self.rays[lane], group);
                 if self.rays[lane].best.object != Nearest::NONE {
                     self.lanes &= !(1 << lane);
@@ -87,9 +85,7 @@ pub(super) fn any<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
         if beams {
             waiting = together(built, objects, own, found, &segments, waiting);
         }
-        while waiting != 0 {
-            let lane = waiting.trailing_zeros() as usize % ROW;
-            waiting &= waiting - 1;
+        while let Some(lane) = next_lane(&mut waiting) {
             if let Some(segment) = segments.lane(lane) {
                 let mut tested = Tested { ray: blocks.one(&own[lane]), best: found[lane] };
                 walk(built, objects, &mut tested, segment);

@@ -4,7 +4,7 @@
 
 use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT};
 use super::segment::SegmentRows;
-use lanes::{ROW, Simd};
+use lanes::{ROW, Simd, next_bit};
 
 /// By how much of the grid what contains the rays is widened: 16 times the rounding of a position, of which there are a few.
 const WIDER: f32 = 1.0 / (1 << 20) as f32;
@@ -146,22 +146,21 @@ impl Beam {
         let mut depth = 0;
         loop {
             let (node, place, cells) = &mut path[depth];
-            if *cells == 0 {
+            let Some(cell) = next_bit(cells) else {
                 if depth == 0 {
                     return true;
                 }
                 depth -= 1;
                 continue;
-            }
-            let cell = cells.trailing_zeros();
-            *cells &= *cells - 1;
-            let number = *node as usize * BRICK + cell as usize;
+            };
+            let number = *node as usize * BRICK + cell;
             if grid.divided_cells(*node) >> cell & 1 == 0 {
                 if !visit.cell(number) {
                     return false;
                 }
                 continue;
             }
+            let cell = cell as u32;
             let at = [cell % EDGE, cell / EDGE % EDGE, cell / (EDGE * EDGE)];
             let at = [0, 1, 2].map(|axis: usize| place[axis] * EDGE + at[axis]);
             let brick = visit.brick(number);

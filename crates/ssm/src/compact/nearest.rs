@@ -7,7 +7,7 @@ use super::chunk::Chunk;
 use super::objects::{Objects, Tested};
 use super::queue::{Queue, UnitRays};
 use accel::{Count, Nearest, Ray};
-use lanes::{Blocks, PackedObjects, ROW, Simd};
+use lanes::{Blocks, PackedObjects, ROW, Simd, next_lane};
 
 /// All lanes.
 const LANES: u32 = u32::MAX >> (32 - ROW);
@@ -30,9 +30,8 @@ impl<S: Simd, B: Blocks, C: Count, const BOXED: bool> Abreast<'_, '_, S, B, C, B
             if BOXED {
                 met = self.queue.met(self.objects.simd, first, self.unit, self.objects.boxes);
             }
-            while met != 0 {
-                let (lane, group) = self.queue.pair(first + met.trailing_zeros() as usize);
-                met &= met - 1;
+            while let Some(at) = next_lane(&mut met) {
+                let (lane, group) = self.queue.pair(first + at);
                 let ray = &mut self.rays[lane];
                 let before = ray.best.t;
                 self.objects.test(ray, group);
@@ -61,11 +60,11 @@ impl<S: Simd, B: Blocks, C: Count, const BOXED: bool> VisitEach for Abreast<'_, 
                     self.queue.add(lane, group, !known);
                 }
                 list = later;
-                if lanes == 0 || !list.is_empty() {
+                if !list.is_empty() {
                     break;
                 }
-                lane = lanes.trailing_zeros() as usize % ROW;
-                lanes &= lanes - 1;
+                let Some(next) = next_lane(&mut lanes) else { break };
+                lane = next;
                 list = self.objects.cells.list(numbers[lane] as usize);
             }
             self.test(limit);
@@ -107,7 +106,7 @@ pub(super) fn nearest<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
     loop {
         let mut idle = !walks.active & LANES;
         while idle != 0 && (chunk.waiting != 0 || next < rays.len()) {
-            if chunk.waiting == 0 {
+            let Some(from) = next_lane(&mut chunk.waiting) else {
                 let own = &rays[next..rays.len().min(next + ROW)];
                 (begun, next) = (next, next + own.len());
                 chunk.fill(built, objects, own);
@@ -118,9 +117,7 @@ pub(super) fn nearest<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
                     }
                 }
                 continue;
-            }
-            let from = chunk.waiting.trailing_zeros() as usize % ROW;
-            chunk.waiting &= chunk.waiting - 1;
+            };
             let Some(segment) = chunk.segments.lane(from) else { continue };
             if rays.len() == 1 {
                 walk(built, objects, &mut chunk.rays[from], segment);
@@ -128,8 +125,7 @@ pub(super) fn nearest<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
                 found[0] = chunk.rays[from].best;
                 continue;
             }
-            let lane = idle.trailing_zeros() as usize % ROW;
-            idle &= idle - 1;
+            let Some(lane) = next_lane(&mut idle) else { break };
             numbers[lane] = begun + from;
             held[lane] = chunk.rays[from];
             walking[lane] = Walking::new(segment, held[lane].best.t);
@@ -144,9 +140,7 @@ pub(super) fn nearest<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
         let (unit, queue) = (&mut unit, &mut queue);
         walks.step(simd, bricks, &mut Abreast { objects: &mut *objects, rays, walking, unit, queue });
         let mut ended = before & !walks.active;
-        while ended != 0 {
-            let lane = ended.trailing_zeros() as usize % ROW;
-            ended &= ended - 1;
+        while let Some(lane) = next_lane(&mut ended) {
             blocks.resolve(&held[lane].ray, &mut held[lane].best);
             found[numbers[lane]] = held[lane].best;
         }

@@ -5,7 +5,7 @@ use crate::general::General;
 use crate::general::tree::Node;
 use accel::Ray;
 use accel::tolerance::LIMIT_S;
-use lanes::{BLOCK, Blocks, PackedObjects, Simd, Task};
+use lanes::{BLOCK, Blocks, PackedObjects, Simd, Task, next_bit};
 
 struct Gather<'a, O: PackedObjects> {
     general: &'a General<O>,
@@ -35,11 +35,9 @@ impl<O: PackedObjects> Task for Gather<'_, O> {
             }
             let block = (what & !Node::BLOCK) as usize;
             let mut candidates = general.maps[block].candidates(s, clipped.at(enter), clipped.at(exit));
-            while candidates != 0 {
-                let slot = block * BLOCK + candidates.trailing_zeros() as usize;
-                candidates &= candidates - 1;
+            while let Some(place) = next_bit(&mut candidates) {
                 // Each object is in one slot of one block.
-                found.push(general.objects.object(slot));
+                found.push(general.objects.object(block * BLOCK + place));
             }
             next = stack.pop(limit);
         }

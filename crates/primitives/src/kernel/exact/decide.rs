@@ -6,7 +6,7 @@ use super::signs::{Place, meets_corner, place};
 use crate::kernel::wide::{Pairs, Products};
 use accel::{Corners, Ray};
 use lanes::packet::Lanes;
-use lanes::{ROW, Simd};
+use lanes::{ROW, Simd, next_lane};
 
 /// Up to so many lanes are decided one by one.
 const FEW: u32 = 2;
@@ -26,9 +26,7 @@ pub(super) fn decide<S: Simd>(s: S, pairs: &impl Pairs, undecided: u32) -> Lanes
     let mut rows = Decisions { state: [0.0; ROW], t: [0.0; ROW], u: [0.0; ROW], v: [0.0; ROW] };
     if undecided.count_ones() <= FEW {
         let mut left = undecided;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize % ROW;
-            left &= left - 1;
+        while let Some(lane) = next_lane(&mut left) {
             rows.decide(pairs, lane);
         }
     } else {
@@ -75,9 +73,7 @@ impl Decisions {
     #[cold]
     fn resolve(&mut self, pairs: &impl Pairs, mut uncertain: u32) -> u32 {
         let mut hits = 0;
-        while uncertain != 0 {
-            let lane = uncertain.trailing_zeros() as usize;
-            uncertain &= uncertain - 1;
+        while let Some(lane) = next_lane(&mut uncertain) {
             let (ray, corners) = (pairs.ray(lane), pairs.corners(lane));
             if !usable(&ray, &corners) {
                 continue;

@@ -4,7 +4,7 @@ use super::meeting::{Meeting, error_of};
 use super::quotient::Quotient;
 use crate::kernel::wide::{Pairs, Products};
 use lanes::packet::Lanes;
-use lanes::{ROW, Simd};
+use lanes::{ROW, Simd, next_lane};
 
 /// Hits in memory.
 struct Hits {
@@ -44,9 +44,7 @@ impl Hits {
 
     #[cold]
     fn resolve(&mut self, pairs: &impl Pairs, mut unknown: u32) {
-        while unknown != 0 {
-            let lane = unknown.trailing_zeros() as usize;
-            unknown &= unknown - 1;
+        while let Some(lane) = next_lane(&mut unknown) {
             let at = Quotient::of(&pairs.ray(lane), &pairs.corners(lane));
             (self.t[lane], self.u[lane], self.v[lane]) = at.expect("a certain hit").rounded().into();
         }
