@@ -358,6 +358,36 @@ pub fn rows<S: Simd>(s: S, rays: &[Ray]) -> accel::grid::RayRows<ROW> {
     rows
 }
 
+/// The part of each ray's way that lies between planes: of those across all three axes, what is within a box.
+#[derive(Clone, Copy)]
+pub struct Overlap<S: Simd> {
+    enter: S::F,
+    exit: S::F,
+}
+
+impl<S: Simd> Overlap<S> {
+    /// The way up to `limit`.
+    #[inline(always)]
+    pub fn up_to(s: S, limit: S::F) -> Self {
+        Self { enter: s.splat(0.0), exit: limit }
+    }
+
+    /// Leaves what lies between two planes across an axis, in either order; a ray meets a plane at (plane − `start`) · `inverse`.
+    #[inline(always)]
+    pub fn cut(&mut self, s: S, planes: [S::F; 2], start: S::F, inverse: S::F) {
+        let a = s.mul(s.sub(planes[0], start), inverse);
+        let b = s.mul(s.sub(planes[1], start), inverse);
+        self.enter = s.max(self.enter, s.min(a, b));
+        self.exit = s.min(self.exit, s.max(a, b));
+    }
+
+    /// The lanes where anything is left, be it a point.
+    #[inline(always)]
+    pub fn lanes(&self, s: S) -> S::M {
+        s.le(self.enter, self.exit)
+    }
+}
+
 /// The rays that begin in a box, as bits.
 #[inline(always)]
 pub fn begun_within<S: Simd>(s: S, rays: &accel::grid::RayRows<ROW>, Aabb { min, max }: &Aabb) -> u32 {
@@ -387,6 +417,46 @@ mod tests {
         #[inline(always)]
         fn run<S: Simd>(self, s: S) -> u32 {
             begun_within(s, &rows(s, self.0), &self.1)
+        }
+    }
+
+    /// The rays of up to 16 that meet a box at a t up to `limit`.
+    struct Met<'a>(&'a [Ray], Aabb, f32);
+
+    impl Task for Met<'_> {
+        type Out = u32;
+
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> u32 {
+            let Self(rays, Aabb { min, max }, limit) = self;
+            let (rays, mut met) = (rows(s, rays), 0);
+            for at in (0..ROW).step_by(S::LANES) {
+                let mut overlap = Overlap::up_to(s, s.splat(limit));
+                for axis in 0..3 {
+                    let start = s.load(&rays.origin[axis][at..]);
+                    let inverse = s.div(s.splat(1.0), s.load(&rays.direction[axis][at..]));
+                    overlap.cut(s, [s.splat(min[axis]), s.splat(max[axis])], start, inverse);
+                }
+                met |= s.bits(overlap.lanes(s)) << at;
+            }
+            met
+        }
+    }
+
+    #[test]
+    fn boxes_are_met_from_either_side_up_to_the_limit_and_not_from_behind() {
+        let bounds = Aabb { min: Vec3::new(2.0, -1.0, -1.0), max: Vec3::new(3.0, 1.0, 1.0) };
+        let aslant = Vec3::new(1.0, 0.25, -0.25);
+        let mut rays = [Ray::new(Vec3::ZERO, -aslant); ROW];
+        rays[1] = Ray::new(Vec3::ZERO, aslant);
+        rays[2] = Ray::new(Vec3::X * 5.0, -aslant);
+        rays[3] = Ray::new(Vec3::X * 2.5, aslant);
+        rays[4] = Ray::new(Vec3::Y * 2.0, aslant);
+        // Ends at the side, and before it.
+        rays[5] = Ray::new(Vec3::X * -0.5, aslant);
+        rays[6] = Ray::new(Vec3::X * -0.75, aslant);
+        for level in Level::here() {
+            assert_eq!(level.run(Met(&rays, bounds, 2.5)), 0b10_1110, "{level:?}");
         }
     }
 

@@ -4,6 +4,7 @@ use super::maps::BlockMaps;
 use super::scratch::PairList;
 use super::state::TraversalState;
 use accel::tolerance::LOCAL_MARGIN;
+use lanes::packet::Overlap;
 use lanes::path::SLICES;
 use lanes::split::{Item, UnitBox};
 use lanes::{BLOCK, Simd};
@@ -95,16 +96,14 @@ impl BlockBoxes {
     /// Of pairs in lanes those whose ray meets the box of the object.
     #[inline(always)]
     fn meet<S: Simd>(&self, s: S, rays: &LocalRays<S>, ray: S::U, slot: S::U) -> S::M {
-        let (mut enter, mut exit) = (s.splat(0.0), s.permute(rays.limit, ray));
+        let mut overlap = Overlap::up_to(s, s.permute(rays.limit, ray));
         for axis in 0..3 {
             let from = s.permute(rays.from[axis], ray);
             let per_step = s.permute(rays.per_step[axis], ray);
-            let low = s.mul(s.sub(s.lookup_bytes(&self.low[axis], slot), from), per_step);
-            let high = s.mul(s.sub(s.lookup_bytes(&self.high[axis], slot), from), per_step);
-            enter = s.max(enter, s.min(low, high));
-            exit = s.min(exit, s.max(low, high));
+            let sides = [s.lookup_bytes(&self.low[axis], slot), s.lookup_bytes(&self.high[axis], slot)];
+            overlap.cut(s, sides, from, per_step);
         }
-        s.le(enter, exit)
+        overlap.lanes(s)
     }
 }
 

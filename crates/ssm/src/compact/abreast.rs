@@ -3,8 +3,8 @@
 //!
 //! In loops over lanes without branches, which compilers turn into vectors.
 
-use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT};
-use super::segment::{ClippedSegment, greater, lesser};
+use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT, within};
+use super::segment::{ClippedSegment, cell_at, greater, lesser, planes, slice_within};
 use lanes::{ROW, Simd, next_lane};
 
 /// A value for each lane.
@@ -127,7 +127,7 @@ impl Walks {
                 self.planes[axis][lane] = plane + if passed { self.between[axis][lane] } else { 0.0 };
                 changed |= here ^ next;
             }
-            let within = cell[0][lane] % EDGE + cell[1][lane] % EDGE * 4 + cell[2][lane] % EDGE * 16;
+            let within = within([cell[0][lane], cell[1][lane], cell[2][lane]]);
             numbers[lane] = self.node[lane].wrapping_mul(BRICK as u32) + within;
             occupied[lane] = (self.bits[lane] >> within) as u32 & 1;
             divided[lane] = (self.divided[lane] >> within) as u32 & 1;
@@ -164,7 +164,6 @@ impl Walks {
     /// Goes into the bricks of the grid that the rays come to, cell by cell where they hold anything; tells of which lanes they do.
     #[inline(always)]
     fn enter_bricks(&mut self, grid: &BrickGrid) -> u32 {
-        let [bx, by, _] = grid.bricks;
         let top = grid.top();
         let edge = top + SHIFT;
         let mut brick = self.slice;
@@ -174,17 +173,14 @@ impl Walks {
             for axis in &mut brick {
                 axis[lane] >>= up;
             }
-            index[lane] = brick[2][lane].wrapping_mul(by).wrapping_add(brick[1][lane]);
-            index[lane] = index[lane].wrapping_mul(bx).wrapping_add(brick[0][lane]);
+            index[lane] = grid.brick_at([brick[0][lane], brick[1][lane], brick[2][lane]]);
         }
         let mut entering = self.entering;
         let mut enters = [0u32; ROW];
         let mut full = 0;
         while let Some(lane) = next_lane(&mut entering) {
-            let bits = grid.occupied[index[lane] as usize];
-            self.bits[lane] = bits;
-            self.divided[lane] = grid.divided_cells(index[lane]);
-            self.node[lane] = index[lane];
+            self.hold(grid, lane, index[lane]);
+            let bits = self.bits[lane];
             self.shift[lane] = if bits == 0 { edge } else { top };
             full |= u32::from(bits != 0) << lane;
             enters[lane] = 1;
@@ -192,15 +188,10 @@ impl Walks {
         for (axis, brick) in brick.iter().enumerate() {
             for lane in 0..ROW {
                 let (shift, outer) = (self.shift[lane], brick[lane]);
-                let place = (self.start[axis][lane] + self.enter[lane] * self.delta[axis][lane]) as i32;
-                let place = place.max(0).cast_unsigned() >> top;
-                let first = outer << SHIFT;
-                let inner = place.max(first).min(first.wrapping_add(EDGE - 1));
-                let slice = if shift == edge { outer } else { inner };
-                let scale = self.scale[axis][lane];
-                let plane = (slice.wrapping_add(self.forward[axis][lane]) << shift).cast_signed();
-                let plane = plane as f32 * scale + self.offset[axis][lane];
-                let between = (scale * (1u32 << shift) as f32).abs();
+                let here = cell_at(self.start[axis][lane] + self.enter[lane] * self.delta[axis][lane]);
+                let slice = if shift == edge { outer } else { slice_within(here, top, outer) };
+                let plane = slice.wrapping_add(self.forward[axis][lane]);
+                let [plane, between] = planes(plane, shift, self.scale[axis][lane], self.offset[axis][lane]);
                 let enters = enters[lane] != 0;
                 self.slice[axis][lane] = if enters { slice } else { self.slice[axis][lane] };
                 self.planes[axis][lane] = if enters { plane } else { self.planes[axis][lane] };
@@ -215,14 +206,11 @@ impl Walks {
     fn descend(&mut self, grid: &BrickGrid, lane: usize, cell: [u32; 3], brick: u32) {
         let shift = self.shift[lane] - SHIFT;
         self.parents[lane][(shift / SHIFT) as usize] = self.node[lane];
-        self.node[lane] = brick;
-        self.bits[lane] = grid.occupied[brick as usize];
-        self.divided[lane] = grid.divided_cells(brick);
+        self.hold(grid, lane, brick);
         let mut slice = [0; 3];
         for axis in 0..3 {
-            let place = (self.start[axis][lane] + self.enter[lane] * self.delta[axis][lane]) as i32;
-            let first = cell[axis] << SHIFT;
-            slice[axis] = (place.max(0).cast_unsigned() >> shift).clamp(first, first + EDGE - 1);
+            let here = cell_at(self.start[axis][lane] + self.enter[lane] * self.delta[axis][lane]);
+            slice[axis] = slice_within(here, shift, cell[axis]);
         }
         self.resume(lane, slice, shift);
     }
@@ -245,22 +233,27 @@ impl Walks {
             node = self.parents[lane][(shift / SHIFT) as usize];
             shift += SHIFT;
         }
-        self.node[lane] = node;
-        self.bits[lane] = grid.occupied[node as usize];
-        self.divided[lane] = grid.divided_cells(node);
+        self.hold(grid, lane, node);
         self.resume(lane, slice, shift);
         true
+    }
+
+    /// Takes a brick for the one that the ray is in.
+    #[inline(always)]
+    fn hold(&mut self, grid: &BrickGrid, lane: usize, brick: u32) {
+        self.node[lane] = brick;
+        self.bits[lane] = grid.occupied[brick as usize];
+        self.divided[lane] = grid.divided_cells(brick);
     }
 
     /// Goes on from these slices of 2^shift cells.
     fn resume(&mut self, lane: usize, slice: [u32; 3], shift: u32) {
         self.shift[lane] = shift;
         for (axis, slice) in slice.into_iter().enumerate() {
-            let scale = self.scale[axis][lane];
-            let plane = (slice.wrapping_add(self.forward[axis][lane]) << shift).cast_signed();
+            let plane = slice.wrapping_add(self.forward[axis][lane]);
             self.slice[axis][lane] = slice;
-            self.planes[axis][lane] = plane as f32 * scale + self.offset[axis][lane];
-            self.between[axis][lane] = (scale * (1u32 << shift) as f32).abs();
+            [self.planes[axis][lane], self.between[axis][lane]] =
+                planes(plane, shift, self.scale[axis][lane], self.offset[axis][lane]);
         }
     }
 }

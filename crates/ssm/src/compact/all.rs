@@ -22,7 +22,7 @@ impl Visit for Gather<'_> {
 
     #[inline(always)]
     fn brick(&self, number: usize) -> u32 {
-        self.cells.references[self.cells.positions[number] as usize]
+        self.cells.brick(number)
     }
 
     #[inline(always)]

@@ -7,16 +7,19 @@ use super::segment::ClippedSegment;
 use accel::{Count, Nearest};
 use lanes::{Blocks, PackedObjects, Simd};
 
-/// The groups that a ray has met lately: a place for each of a number of groups in a row, which
+/// The groups that have been met lately: a place for each of `N` groups in a row, which
 /// neighbours in space mostly are.
 #[derive(Clone, Copy)]
-pub(super) struct Mailbox([u32; 16]);
+pub(super) struct Mailbox<const N: usize>([u32; N]);
 
-impl Mailbox {
+impl<const N: usize> Mailbox<N> {
+    /// None yet.
+    pub const EMPTY: Self = Self([u32::MAX; N]);
+
     /// Whether it is one of them, which it is from now on.
     #[inline(always)]
     pub fn contains_or_insert(&mut self, group: u32) -> bool {
-        let place = &mut self.0[group as usize % 16];
+        let place = &mut self.0[group as usize % N];
         std::mem::replace(place, group) == group
     }
 }
@@ -27,18 +30,26 @@ pub(super) struct Walking {
     pub segment: ClippedSegment,
     /// Up to where boxes are looked at.
     pub limit: f32,
-    pub met: Mailbox,
+    pub met: Mailbox<16>,
 }
 
 impl Walking {
     /// Not begun.
     pub const NOWHERE: Self =
-        Self { segment: ClippedSegment::NOWHERE, limit: ClippedSegment::LIMIT, met: Mailbox([u32::MAX; 16]) };
+        Self { segment: ClippedSegment::NOWHERE, limit: ClippedSegment::LIMIT, met: Mailbox::EMPTY };
 
     /// At the beginning of a segment, with a hit at `t` at most.
     #[inline(always)]
     pub fn new(segment: ClippedSegment, t: f32) -> Self {
-        Self { segment, limit: ClippedSegment::LIMIT.min(segment.limit(t)), ..Self::NOWHERE }
+        let mut walking = Self { segment, ..Self::NOWHERE };
+        walking.found(t);
+        walking
+    }
+
+    /// Looks no farther than a hit at `t`.
+    #[inline(always)]
+    pub fn found(&mut self, t: f32) {
+        self.limit = self.limit.min(self.segment.limit(t));
     }
 }
 
@@ -59,7 +70,7 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool> Visit
 
     #[inline(always)]
     fn brick(&self, number: usize) -> u32 {
-        self.objects.brick(number)
+        self.objects.cells.brick(number)
     }
 
     #[inline(always)]
@@ -87,7 +98,7 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool> Objects<'
             }
         }
         if ray.best.t < before {
-            walking.limit = walking.limit.min(walking.segment.limit(ray.best.t));
+            walking.found(ray.best.t);
         }
         walking.limit
     }

@@ -1,13 +1,12 @@
 //! Whether rays hit anything.
 
 use super::Built;
-use super::alone::walk;
+use super::alone::{Mailbox, walk};
 use super::beam::{Beam, VisitBeam};
 use super::objects::{Objects, Tested};
 use super::segment::SegmentRows;
 use super::sort;
 use accel::{Count, Nearest, Ray};
-use lanes::packet::rows;
 use lanes::{Blocks, PackedObjects, ROW, Simd, next_lane};
 
 /// Groups that a beam remembers: more than a ray, for it meets more.
@@ -31,7 +30,7 @@ struct Together<'a, 'o, S, B: Blocks, C> {
     /// The lanes of those that go on.
     lanes: u32,
     /// The groups looked at lately.
-    met: [u32; TOGETHER],
+    met: Mailbox<TOGETHER>,
 }
 
 impl<S: Simd, B: Blocks, C: Count> VisitBeam for Together<'_, '_, S, B, C> {
@@ -40,8 +39,7 @@ impl<S: Simd, B: Blocks, C: Count> VisitBeam for Together<'_, '_, S, B, C> {
         self.objects.count.cells(1);
         for &group in self.objects.cells.list(number) {
             self.objects.count.candidates(1);
-            let place = &mut self.met[group as usize % TOGETHER];
-            if std::mem::replace(place, group) == group {
+            if self.met.contains_or_insert(group) {
                 continue;
             }
             let mut met =
@@ -58,7 +56,7 @@ impl<S: Simd, B: Blocks, C: Count> VisitBeam for Together<'_, '_, S, B, C> {
 
     #[inline(always)]
     fn brick(&self, number: usize) -> u32 {
-        self.objects.brick(number)
+        self.objects.cells.brick(number)
     }
 }
 
@@ -77,17 +75,14 @@ pub(super) fn any<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
         if waiting == 0 {
             continue;
         }
-        let segments = match own {
-            [ray] => bricks.clip(ray),
-            _ => bricks.clip_rows(objects.simd, &rows(objects.simd, own)),
-        };
+        let segments = bricks.clip_all(objects.simd, own);
         waiting = segments.meeting(waiting);
         if beams {
             waiting = together(built, objects, own, found, &segments, waiting);
         }
         while let Some(lane) = next_lane(&mut waiting) {
             if let Some(segment) = segments.lane(lane) {
-                let mut tested = Tested { ray: blocks.one(&own[lane]), best: found[lane] };
+                let mut tested = Tested::new(blocks, &own[lane]);
                 walk(built, objects, &mut tested, segment);
                 found[lane] = tested.best;
             }
@@ -107,7 +102,7 @@ fn apart<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
     for (lane, (ray, found)) in rays.iter().zip(found).enumerate() {
         *found = Nearest::new(ray.t_max);
         if built.apart {
-            let mut tested = Tested { ray: built.blocks.one(ray), best: *found };
+            let mut tested = Tested::new(&built.blocks, ray);
             objects.test(&mut tested, 0);
             *found = tested.best;
         }
@@ -129,9 +124,9 @@ fn together<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
     let Some(first) = rays.first() else { return 0 };
     let Objects { simd, cells, boxes, blocks, count } = objects;
     let mut objects = Objects { simd: *simd, cells, boxes, blocks: *blocks, count: &mut **count };
-    let mut tested = [Tested { ray: built.blocks.one(first), best: Nearest::new(first.t_max) }; ROW];
+    let mut tested = [Tested::new(&built.blocks, first); ROW];
     for (tested, ray) in tested.iter_mut().zip(rays).skip(1) {
-        *tested = Tested { ray: built.blocks.one(ray), best: Nearest::new(ray.t_max) };
+        *tested = Tested::new(&built.blocks, ray);
     }
     let mut alone = 0u32;
     while waiting != 0 && alone.count_ones() < TRIES {
@@ -142,7 +137,7 @@ fn together<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
             continue;
         };
         waiting &= !beam.lanes;
-        let met = [u32::MAX; TOGETHER];
+        let met = Mailbox::EMPTY;
         let rays = &mut tested;
         beam.walk(
             &built.bricks,

@@ -2,8 +2,8 @@
 //! Using Coherent Grid Traversal*, ACM Transactions on Graphics 25(3), 2006): slice by slice, all cells between straight lines that
 //! contain the rays.
 
-use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT};
-use super::segment::SegmentRows;
+use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT, cell_of};
+use super::segment::{SegmentRows, cell_at};
 use lanes::{ROW, Simd, next_bit};
 
 /// By how much of the grid what contains the rays is widened: 16 times the rounding of a position, of which there are a few.
@@ -154,15 +154,13 @@ impl Beam {
                 continue;
             };
             let number = *node as usize * BRICK + cell;
-            if grid.divided_cells(*node) >> cell & 1 == 0 {
+            if !grid.is_divided(*node, cell as u32) {
                 if !visit.cell(number) {
                     return false;
                 }
                 continue;
             }
-            let cell = cell as u32;
-            let at = [cell % EDGE, cell / EDGE % EDGE, cell / (EDGE * EDGE)];
-            let at = [0, 1, 2].map(|axis: usize| place[axis] * EDGE + at[axis]);
+            let at = cell_of(*place, cell as u32);
             let brick = visit.brick(number);
             depth += 1;
             path[depth] = (brick, at, self.cells(grid, brick, at, grid.top() - SHIFT * depth as u32));
@@ -218,7 +216,7 @@ fn run([least, most]: [u32; 2], first: u32, stride: u32) -> u64 {
 /// The slice of 2^shift cells at a place.
 #[inline(always)]
 fn slice(place: f32, shift: u32) -> u32 {
-    (place as i32).max(0).cast_unsigned() >> shift
+    cell_at(place) >> shift
 }
 
 /// The least and the greatest of some numbers.

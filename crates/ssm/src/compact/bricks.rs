@@ -5,9 +5,10 @@
 use super::ID;
 use super::segment::{ClippedSegment, Frame, SegmentRows, UnitBox, greater};
 use crate::register::Word;
-use accel::grid::{Grid, RayRows};
+use accel::grid::Grid;
 use accel::{Aabb, BuildError, Ray};
-use lanes::{ROW, Simd};
+use lanes::Simd;
+use lanes::packet::rows;
 use std::ops::Range;
 
 /// Cells along an edge of a brick.
@@ -77,11 +78,11 @@ impl BrickGrid {
         self.finest.resolution()
     }
 
-    /// The number of a brick of the grid itself.
+    /// The number of a brick of the grid itself; any number where there is no brick, as for lanes without a ray.
     #[inline(always)]
     pub fn brick_at(&self, [x, y, z]: [u32; 3]) -> u32 {
         let [bx, by, _] = self.bricks;
-        (z * by + y) * bx + x
+        z.wrapping_mul(by).wrapping_add(y).wrapping_mul(bx).wrapping_add(x)
     }
 
     /// Number of bricks of the grid itself.
@@ -143,18 +144,15 @@ impl BrickGrid {
         places(&object.each_ref().map(|r| at_level(r, self.levels)), brick)
     }
 
-    fn word(&self, [x, y, z]: [u32; 3], bits: u64) -> Word {
-        let [bx, by, _] = self.bricks;
-        Word { first: ((z * by + y) * bx + x) * BRICK as u32, bits }
+    fn word(&self, brick: [u32; 3], bits: u64) -> Word {
+        Word { first: self.brick_at(brick) * BRICK as u32, bits }
     }
 
     /// The slices of the grid in which a cell lies, of the grid's own level.
     pub fn place(&self, cell: u32) -> [u32; 3] {
         let (brick, within) = (cell / BRICK as u32, cell % BRICK as u32);
         let [bx, by, _] = self.bricks;
-        let brick = [brick % bx, brick / bx % by, brick / (bx * by)];
-        let within = [within % EDGE, within / EDGE % EDGE, within / (EDGE * EDGE)];
-        [0, 1, 2].map(|a| brick[a] * EDGE + within[a])
+        cell_of([brick % bx, brick / bx % by, brick / (bx * by)], within)
     }
 
     /// A box in unit coordinates.
@@ -168,23 +166,25 @@ impl BrickGrid {
         self.frame.clip(ray)
     }
 
-    /// The parts of several rays inside the grid.
+    /// The parts of up to 16 rays inside the grid; there must be one.
     #[inline(always)]
-    pub fn clip_rows<S: Simd>(&self, s: S, rays: &RayRows<ROW>) -> SegmentRows {
-        self.frame.clip_rows(s, rays)
+    pub fn clip_all<S: Simd>(&self, s: S, rays: &[Ray]) -> SegmentRows {
+        match rays {
+            [ray] => self.clip(ray),
+            _ => self.frame.clip_rows(s, &rows(s, rays)),
+        }
     }
 
     /// Visits the occupied cells on a segment up to s = `limit`, at most 1, in order.
     #[inline(always)]
     pub fn walk<V: Visit>(&self, segment: &ClippedSegment, mut limit: f32, visit: &mut V) {
-        let [bx, by, _] = self.bricks;
         let top = self.top();
         let edge = top + SHIFT;
         let mut brick = segment.cell(0.0).map(|c| c >> edge);
         let mut enter = 0f32;
         loop {
             visit.step();
-            let index = (brick[2] * by + brick[1]) * bx + brick[0];
+            let index = self.brick_at(brick);
             let mut bits = self.occupied[index as usize];
             if bits == 0 {
                 let mut steps = segment.from(brick, edge);
@@ -202,7 +202,7 @@ impl BrickGrid {
             'node: loop {
                 visit.step();
                 let cell = cells.slice;
-                let within = cell[0] % EDGE + cell[1] % EDGE * 4 + cell[2] % EDGE * 16;
+                let within = within(cell);
                 let exit = cells.advance();
                 if bits >> within & 1 != 0 {
                     let number = node as usize * BRICK + within as usize;
@@ -246,8 +246,9 @@ impl BrickGrid {
         self.is_divided((cell / BRICK) as u32, (cell % BRICK) as u32)
     }
 
+    /// Whether this cell of a brick is divided.
     #[inline(always)]
-    fn is_divided(&self, node: u32, within: u32) -> bool {
+    pub fn is_divided(&self, node: u32, within: u32) -> bool {
         self.divided_cells(node) >> within & 1 != 0
     }
 
@@ -256,6 +257,18 @@ impl BrickGrid {
     pub fn divided_cells(&self, node: u32) -> u64 {
         self.divided.get(node as usize).copied().unwrap_or(0)
     }
+}
+
+/// The number of a cell within its brick.
+#[inline(always)]
+pub(super) fn within([x, y, z]: [u32; 3]) -> u32 {
+    x % EDGE + y % EDGE * EDGE + z % EDGE * (EDGE * EDGE)
+}
+
+/// The cell of that number within a brick that is at this place among those of its size.
+#[inline(always)]
+pub(super) fn cell_of([x, y, z]: [u32; 3], within: u32) -> [u32; 3] {
+    [x * EDGE + within % EDGE, y * EDGE + within / EDGE % EDGE, z * EDGE + within / (EDGE * EDGE)]
 }
 
 /// So many words put in order take as long as looking at one object in one brick, about.
@@ -295,6 +308,15 @@ pub(super) fn at_level(range: &Range<u32>, levels: u32) -> Range<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_are_numbered_within_their_brick() {
+        for number in 0..BRICK as u32 {
+            let cell = cell_of([5, 0, 2], number);
+            assert_eq!(cell.map(|slice| slice / EDGE), [5, 0, 2]);
+            assert_eq!(within(cell), number);
+        }
+    }
 
     #[test]
     fn places_are_the_cells_in_all_three_ranges() {

@@ -4,7 +4,6 @@ use super::Built;
 use super::objects::{Objects, Tested};
 use super::segment::SegmentRows;
 use accel::{Count, Nearest, Ray};
-use lanes::packet::rows;
 use lanes::{Blocks, PackedObjects, ROW, Simd};
 
 /// Up to 16 rays, made ready.
@@ -18,29 +17,23 @@ pub(super) struct Chunk<R> {
 impl<R: Copy> Chunk<R> {
     /// Clips the rays and tests them with what is in no cell.
     #[inline(always)]
-    pub fn fill<O: PackedObjects, S: Simd, C: Count, const ANY: bool, const BOXED: bool>(
+    pub fn fill<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
         &mut self,
         built: &Built<O>,
-        objects: &mut Objects<'_, S, O::Blocks, C, ANY, BOXED>,
+        objects: &mut Objects<'_, S, O::Blocks, C, false, BOXED>,
         rays: &[Ray],
     ) where
         O::Blocks: Blocks<One = R>,
     {
-        let simd = objects.simd;
-        self.segments = match rays {
-            [ray] => built.bricks.clip(ray),
-            _ => built.bricks.clip_rows(simd, &rows(simd, rays)),
-        };
-        self.waiting = 0;
-        for (lane, ray) in rays.iter().enumerate() {
-            let mut tested = Tested { ray: built.blocks.one(ray), best: Nearest::new(ray.t_max) };
+        self.segments = built.bricks.clip_all(objects.simd, rays);
+        for (own, ray) in self.rays.iter_mut().zip(rays) {
+            let mut tested = Tested::new(&built.blocks, ray);
             if built.apart {
                 objects.test(&mut tested, 0);
             }
-            self.waiting |= u32::from(!ANY || tested.best.object == Nearest::NONE) << lane;
-            self.rays[lane] = tested;
+            *own = tested;
         }
-        self.waiting = self.segments.meeting(self.waiting);
+        self.waiting = self.segments.meeting(u32::MAX >> (32 - rays.len()));
     }
 
     /// Nothing; `first` stands in for rays.

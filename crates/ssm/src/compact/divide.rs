@@ -2,7 +2,7 @@
 //! grids of D. Jevans and B. Wyvill, *Adaptive Voxel Subdivision for Ray Tracing*, Graphics
 //! Interface 1989, in the layout of the grid itself.
 
-use super::bricks::{BRICK, BrickGrid, EDGE, at_level, places};
+use super::bricks::{BRICK, BrickGrid, at_level, cell_of, places};
 use super::order::GROUP;
 use super::{BRICK_BYTES, Cells, ID};
 use crate::register::Limit;
@@ -271,8 +271,7 @@ impl Tree {
                 for (member, _) in members.iter().zip(&masks).filter(|(_, cells)| here(**cells)) {
                     append(ID, &mut list, *member)?;
                 }
-                let at = [within as u32 % EDGE, within as u32 / EDGE % EDGE, within as u32 / (EDGE * EDGE)];
-                let at = [0, 1, 2].map(|a| place[a] * EDGE + at[a]);
+                let at = cell_of(place, within as u32);
                 if child.grow(&list, at, levels - 1, gain, allowance)? {
                     self.divided[brick] |= 1 << within;
                     own.truncate(start);

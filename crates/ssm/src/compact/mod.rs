@@ -122,6 +122,12 @@ impl Cells {
         &self.references[self.positions[cell] as usize..self.positions[cell + 1] as usize]
     }
 
+    /// The brick that a divided cell holds in the place of a list.
+    #[inline(always)]
+    fn brick(&self, cell: usize) -> u32 {
+        self.references[self.positions[cell] as usize]
+    }
+
     fn length(&self, cell: usize) -> u32 {
         self.positions[cell + 1] - self.positions[cell]
     }

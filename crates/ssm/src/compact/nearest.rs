@@ -37,7 +37,7 @@ impl<S: Simd, B: Blocks, C: Count, const BOXED: bool> Abreast<'_, '_, S, B, C, B
                 self.objects.test(ray, group);
                 if ray.best.t < before {
                     let walking = &mut self.walking[lane];
-                    walking.limit = walking.limit.min(walking.segment.limit(ray.best.t));
+                    walking.found(ray.best.t);
                     self.unit.limit(lane, walking.limit);
                     limit[lane] = limit[lane].min(walking.limit);
                 }
@@ -76,7 +76,7 @@ impl<S: Simd, B: Blocks, C: Count, const BOXED: bool> VisitEach for Abreast<'_, 
 
     #[inline(always)]
     fn brick(&self, number: usize) -> u32 {
-        self.objects.brick(number)
+        self.objects.cells.brick(number)
     }
 
     #[inline(always)]
@@ -112,8 +112,7 @@ pub(super) fn nearest<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
                 chunk.fill(built, objects, own);
                 for (lane, found) in found[begun..next].iter_mut().enumerate() {
                     if chunk.waiting >> lane & 1 == 0 {
-                        blocks.resolve(&chunk.rays[lane].ray, &mut chunk.rays[lane].best);
-                        *found = chunk.rays[lane].best;
+                        *found = chunk.rays[lane].resolved(blocks);
                     }
                 }
                 continue;
@@ -121,8 +120,7 @@ pub(super) fn nearest<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
             let Some(segment) = chunk.segments.lane(from) else { continue };
             if rays.len() == 1 {
                 walk(built, objects, &mut chunk.rays[from], segment);
-                blocks.resolve(&chunk.rays[from].ray, &mut chunk.rays[from].best);
-                found[0] = chunk.rays[from].best;
+                found[0] = chunk.rays[from].resolved(blocks);
                 continue;
             }
             let Some(lane) = next_lane(&mut idle) else { break };
@@ -141,8 +139,7 @@ pub(super) fn nearest<O: PackedObjects, S: Simd, C: Count, const BOXED: bool>(
         walks.step(simd, bricks, &mut Abreast { objects: &mut *objects, rays, walking, unit, queue });
         let mut ended = before & !walks.active;
         while let Some(lane) = next_lane(&mut ended) {
-            blocks.resolve(&held[lane].ray, &mut held[lane].best);
-            found[numbers[lane]] = held[lane].best;
+            found[numbers[lane]] = held[lane].resolved(blocks);
         }
     }
 }

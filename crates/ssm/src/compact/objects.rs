@@ -1,16 +1,31 @@
 //! Rays and the groups of objects that they are tested with.
 
-use super::Cells;
 use super::order::GROUP;
 use super::segment::UnitBox;
-use accel::{Count, Nearest};
-use lanes::{BLOCK, Blocks, Simd};
+use super::{Built, Cells};
+use accel::{Count, Nearest, Ray};
+use lanes::{BLOCK, Blocks, PackedObjects, Simd};
 
 /// A ray as objects test it, and its nearest hit.
 #[derive(Clone, Copy)]
 pub(super) struct Tested<R> {
     pub ray: R,
     pub best: Nearest,
+}
+
+impl<R> Tested<R> {
+    /// Not tested yet.
+    #[inline(always)]
+    pub fn new<B: Blocks<One = R>>(blocks: &B, ray: &Ray) -> Self {
+        Self { ray: blocks.one(ray), best: Nearest::new(ray.t_max) }
+    }
+
+    /// What it has hit, once nothing is left to be tested.
+    #[inline(always)]
+    pub fn resolved<B: Blocks<One = R>>(&mut self, blocks: &B) -> Nearest {
+        blocks.resolve(&self.ray, &mut self.best);
+        self.best
+    }
 }
 
 /// Where rays look for objects.
@@ -22,7 +37,14 @@ pub(super) struct Objects<'a, S, B, C, const ANY: bool, const BOXED: bool> {
     pub count: &'a mut C,
 }
 
-impl<S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool> Objects<'_, S, B, C, ANY, BOXED> {
+impl<'a, S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool> Objects<'a, S, B, C, ANY, BOXED> {
+    /// All that the structure holds.
+    #[inline(always)]
+    pub fn of<O: PackedObjects<Blocks = B>>(simd: S, built: &'a Built<O>, count: &'a mut C) -> Self {
+        let Built { cells, boxes, blocks, .. } = built;
+        Self { simd, cells, boxes, blocks, count }
+    }
+
     /// Tests the objects of a group.
     #[inline(always)]
     pub fn test(&mut self, ray: &mut Tested<B::One>, group: u32) {
@@ -35,11 +57,5 @@ impl<S: Simd, B: Blocks, C: Count, const ANY: bool, const BOXED: bool> Objects<'
         } else if self.blocks.any(self.simd, first / BLOCK, mask, &ray.ray, ray.best.t) {
             ray.best.object = 0;
         }
-    }
-
-    /// The brick that the divided cell `number` holds.
-    #[inline(always)]
-    pub fn brick(&self, number: usize) -> u32 {
-        self.cells.references[self.cells.positions[number] as usize]
     }
 }

@@ -2,6 +2,7 @@
 
 use super::abreast::Lanes;
 use super::segment::{ClippedSegment, UnitBox};
+use lanes::packet::Overlap;
 use lanes::{ROW, Simd};
 
 /// Most pairs that wait.
@@ -95,16 +96,13 @@ impl Queue {
             }
             let (lower, upper) = (s.load_quads(&lower), s.load_quads(&upper));
             let lanes = &self.lanes[at..];
-            let (mut enter, mut exit) = (s.splat(0.0), each(s, &rays.limit, lanes));
+            let mut overlap = Overlap::up_to(s, each(s, &rays.limit, lanes));
             for axis in 0..3 {
                 let (start, inverse) =
                     (each(s, &rays.start[axis], lanes), each(s, &rays.inverse[axis], lanes));
-                let a = s.mul(s.sub(lower[axis], start), inverse);
-                let b = s.mul(s.sub(upper[axis], start), inverse);
-                enter = s.max(enter, s.min(a, b));
-                exit = s.min(exit, s.max(a, b));
+                overlap.cut(s, [lower[axis], upper[axis]], start, inverse);
             }
-            met |= s.bits(s.le(enter, exit)) << (at - first);
+            met |= s.bits(overlap.lanes(s)) << (at - first);
         }
         met & all
     }

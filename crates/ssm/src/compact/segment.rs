@@ -1,9 +1,10 @@
 //! The part of a ray inside a grid, in the grid's finest cells, prepared for walking and for boxes.
 
+use super::bricks::{EDGE, SHIFT};
 use accel::grid::{Grid, RayRows, Span};
 use accel::tolerance::{INSET, LIMIT_S, PARALLEL};
 use accel::{Aabb, Ray};
-use lanes::packet::Vec3Lanes;
+use lanes::packet::{Overlap, Vec3Lanes};
 use lanes::{ROW, Scalar, Simd};
 
 /// Maps the unit coordinates of a grid to its cells.
@@ -203,16 +204,13 @@ impl SegmentRows {
     pub fn meets<S: Simd>(&self, s: S, UnitBox(sides): &UnitBox) -> u32 {
         let mut met = 0;
         for at in (0..ROW).step_by(S::LANES) {
-            let (mut enter, mut exit) = (s.splat(0.0), s.splat(ClippedSegment::LIMIT));
+            let mut overlap = Overlap::up_to(s, s.splat(ClippedSegment::LIMIT));
             for axis in 0..3 {
                 let start = s.load(&self.unit_start[axis][at..]);
                 let inverse = s.load(&self.unit_inverse[axis][at..]);
-                let a = s.mul(s.sub(s.splat(sides[axis]), start), inverse);
-                let b = s.mul(s.sub(s.splat(sides[axis + UPPER]), start), inverse);
-                enter = s.max(enter, s.min(a, b));
-                exit = s.min(exit, s.max(a, b));
+                overlap.cut(s, [s.splat(sides[axis]), s.splat(sides[axis + UPPER])], start, inverse);
             }
-            met |= s.bits(s.le(enter, exit)) << at;
+            met |= s.bits(overlap.lanes(s)) << at;
         }
         met
     }
@@ -283,10 +281,8 @@ impl ClippedSegment {
     pub fn from(&self, slice: [u32; 3], shift: u32) -> Steps {
         let mut steps = Steps { slice, planes: [0.0; 3], between: [0.0; 3], step: self.step };
         for (a, slice) in slice.into_iter().enumerate() {
-            // As signed numbers, which convert in one instruction.
-            let plane = (slice.wrapping_add(self.forward[a]) << shift).cast_signed();
-            steps.planes[a] = plane as f32 * self.scale[a] + self.offset[a];
-            steps.between[a] = (self.scale[a] * (1 << shift) as f32).abs();
+            [steps.planes[a], steps.between[a]] =
+                planes(slice.wrapping_add(self.forward[a]), shift, self.scale[a], self.offset[a]);
         }
         steps
     }
@@ -294,17 +290,40 @@ impl ClippedSegment {
     /// The cell at s.
     #[inline(always)]
     pub fn cell(&self, s: f32) -> [u32; 3] {
-        let place = |a: usize| (self.start[a] + s * self.delta[a]) as i32;
-        [place(0), place(1), place(2)].map(|place| place.max(0).cast_unsigned())
+        let cell = |a: usize| cell_at(self.start[a] + s * self.delta[a]);
+        [cell(0), cell(1), cell(2)]
     }
 
     /// The slices at s of 2^shift cells that lie in `outer`, four times as thick.
     #[inline(always)]
     pub fn cell_within(&self, s: f32, shift: u32, outer: [u32; 3]) -> [u32; 3] {
         let cell = self.cell(s);
-        let inner = |a: usize| (cell[a] >> shift).clamp(outer[a] << 2, (outer[a] << 2) + 3);
+        let inner = |a: usize| slice_within(cell[a], shift, outer[a]);
         [inner(0), inner(1), inner(2)]
     }
+}
+
+/// The cell at a place on an axis; what is before the first counts to it.
+#[inline(always)]
+pub(super) fn cell_at(place: f32) -> u32 {
+    (place as i32).max(0).cast_unsigned()
+}
+
+/// Of the slices of 2^shift cells in `outer`, four times as thick, the one that a cell lies in or is nearest to.
+#[inline(always)]
+pub(super) fn slice_within(cell: u32, shift: u32, outer: u32) -> u32 {
+    let first = outer << SHIFT;
+    (cell >> shift).max(first).min(first | (EDGE - 1))
+}
+
+/// Where a segment meets a plane of an axis, and how far it is from there to the next plane, planes being 2^shift cells apart;
+/// `scale` and `offset` are those of [`ClippedSegment`].
+#[inline(always)]
+pub(super) fn planes(plane: u32, shift: u32, scale: f32, offset: f32) -> [f32; 2] {
+    // As signed numbers, which convert in one instruction.
+    let place = (plane << shift).cast_signed() as f32;
+    let thickness = (1u32 << shift).cast_signed() as f32;
+    [place * scale + offset, (scale * thickness).abs()]
 }
 
 /// Steps from slice to slice, of one thickness. Each step adds its rounding: no more than four in a row along an axis.

@@ -34,22 +34,18 @@ impl<O: PackedObjects, C: Count, const ANY: bool> Task for Batch<'_, O, C, ANY> 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { built, rays, found, count } = self;
-        let Built { cells, boxes, blocks, .. } = built;
+        let boxed = !built.boxes.is_empty();
         // By constants one after the other, so that nothing is compiled that they rule out.
         if ANY {
-            if boxes.is_empty() {
-                let mut objects = Objects::<_, _, _, true, false> { simd, cells, boxes, blocks, count };
-                any(built, &mut objects, rays, found);
+            if boxed {
+                any::<_, _, _, true>(built, &mut Objects::of(simd, built, count), rays, found);
             } else {
-                let mut objects = Objects::<_, _, _, true, true> { simd, cells, boxes, blocks, count };
-                any(built, &mut objects, rays, found);
+                any::<_, _, _, false>(built, &mut Objects::of(simd, built, count), rays, found);
             }
-        } else if boxes.is_empty() {
-            let mut objects = Objects::<_, _, _, false, false> { simd, cells, boxes, blocks, count };
-            nearest(built, &mut objects, rays, found);
+        } else if boxed {
+            nearest::<_, _, _, true>(built, &mut Objects::of(simd, built, count), rays, found);
         } else {
-            let mut objects = Objects::<_, _, _, false, true> { simd, cells, boxes, blocks, count };
-            nearest(built, &mut objects, rays, found);
+            nearest::<_, _, _, false>(built, &mut Objects::of(simd, built, count), rays, found);
         }
     }
 }
