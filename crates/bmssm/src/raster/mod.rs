@@ -47,7 +47,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { kernel: KernelId::MollerTrumbore, simd: Level::best(), tile: 8, depth_bits: 2, large: 8 }
+        Self { kernel: KernelId::MollerTrumbore, simd: Level::best(), tile: 8, depth_bits: 2, large: 16 }
     }
 }
 

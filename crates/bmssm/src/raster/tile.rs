@@ -362,10 +362,14 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
                 for (packet, nearest) in nearest.chunks_exact_mut(S::LANES).enumerate() {
                     self.best[cell * Self::PACKETS + packet].store(s, nearest);
                 }
-                let nearest = nearest.chunks_exact(THICKNESS as usize);
-                for (line, nearest) in hits.chunks_exact_mut(width).zip(nearest) {
-                    for (hit, nearest) in line[from..to].iter_mut().zip(nearest) {
-                        *hit = nearest.hit();
+                let lines = hits.chunks_exact_mut(width).zip(nearest.as_chunks::<{ THICKNESS as usize }>().0);
+                for (line, nearest) in lines {
+                    let line = &mut line[from..to];
+                    // Of a known length, so that no loop is left.
+                    if let Ok(hits) = <&mut [_; THICKNESS as usize]>::try_from(&mut *line) {
+                        hits.iter_mut().zip(nearest).for_each(|(hit, nearest)| *hit = nearest.hit());
+                    } else {
+                        line.iter_mut().zip(nearest).for_each(|(hit, nearest)| *hit = nearest.hit());
                     }
                 }
             }
