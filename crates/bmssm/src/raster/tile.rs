@@ -297,18 +297,13 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
             }
             count.tests(u64::from(bits.count_ones()));
             for packet in packets.clone() {
-                let (rays, mut best) = (&self.rays[packet], self.best[packet]);
+                // In memory: most tests look at no more of it than t.
+                let (rays, best) = (&self.rays[packet], &mut self.best[packet]);
                 let mut bits = bits;
                 while let Some(lane) = next_lane(&mut bits) {
-                    let slot = first + lane;
-                    maps.geometry.packet_prepared(
-                        s,
-                        Shared { slot, common: &block.common, rows },
-                        rays,
-                        &mut best,
-                    );
+                    let at = Shared { slot: first + lane, common: &block.common, rows };
+                    maps.geometry.packet_prepared(s, at, rays, best);
                 }
-                self.best[packet] = best;
             }
         }
     }
