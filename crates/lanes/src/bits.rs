@@ -1,6 +1,6 @@
 //! The bits of a word, one by one.
 
-use crate::simd::ROW;
+use crate::row::ROW;
 
 /// Takes the lowest bit off a mask of lanes, and tells the lane; `None` once there is no lane left.
 #[inline(always)]

@@ -2,7 +2,8 @@
 
 use crate::Tile;
 use crate::packet::{NearestPacket, Packet, Pairs};
-use crate::simd::{ROW, Row, Simd};
+use crate::row::{ROW, Row};
+use crate::simd::Simd;
 use accel::{Bounds, BuildError, Common, Nearest, Objects, Ray};
 
 /// Objects in a block: one bit each of a 64-bit word.

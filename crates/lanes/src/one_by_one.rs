@@ -3,7 +3,8 @@
 use crate::bits::{next_bit, next_lane};
 use crate::blocks::{BLOCK, Blocks, EMPTY_SLOT, PackedObjects};
 use crate::packet::{Lanes, NearestPacket, Packet};
-use crate::simd::{ROW, Simd};
+use crate::row::ROW;
+use crate::simd::Simd;
 use accel::{BuildError, Nearest, Objects, Ray};
 
 /// Objects that know no packed form: those of a block are tested one by one, where the scene has them.

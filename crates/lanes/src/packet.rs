@@ -1,6 +1,7 @@
 //! Several rays side by side in lanes.
 
-use crate::simd::{ROW, Simd};
+use crate::row::ROW;
+use crate::simd::Simd;
 use accel::{Aabb, Nearest, Projection, Raster, Ray, Surface, Vec3};
 
 /// Three coordinates of `LANES` vectors.

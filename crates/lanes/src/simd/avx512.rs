@@ -1,7 +1,8 @@
 //! Sixteen lanes of AVX-512.
 
 use super::path::{BESIDE, Hull, Path, PathRows, SLICES};
-use super::{Lists, ROW, Row, SHARE, Simd, Task, entered, intrinsic, registers};
+use super::{Lists, SHARE, Simd, Task, entered, intrinsic, registers};
+use crate::row::{ROW, Row};
 use accel::tolerance::TRIM;
 use std::arch::x86_64::*;
 

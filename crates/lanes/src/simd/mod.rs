@@ -31,15 +31,8 @@ use registers::entered;
 use registers::{intrinsic, registers};
 
 use crate::bits::next_lane;
+use crate::row::{ROW, Row};
 use accel::settings::one_of;
-
-/// Lanes in a row of packed geometry: the widest implementation's width, a multiple of all.
-pub const ROW: usize = 16;
-
-/// A row of packed geometry, aligned for the widest load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
-pub struct Row(pub [f32; ROW]);
 
 /// Lists of ids, one behind another.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Bit maps along a straight path: the one operation on words that instruction sets do differently.
 
-use super::Row;
+use crate::row::Row;
 use accel::tolerance::TRIM;
 
 /// Slices of each map.

@@ -3,7 +3,8 @@
 //!
 //! In loops over lanes without branches, which compilers turn into vectors.
 
-use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT, within};
+use super::brick::{BRICK, EDGE, SHIFT, within};
+use super::bricks::{BrickGrid, MAX_LEVELS};
 use super::segment::{ClippedSegment, cell_at, greater, lesser, planes, slice_within};
 use lanes::{ROW, Simd, next_lane};
 

@@ -2,7 +2,8 @@
 //! Using Coherent Grid Traversal*, ACM Transactions on Graphics 25(3), 2006): slice by slice, all cells between straight lines that
 //! contain the rays.
 
-use super::bricks::{BRICK, BrickGrid, EDGE, MAX_LEVELS, SHIFT, cell_of};
+use super::brick::{BRICK, EDGE, SHIFT, cell_of};
+use super::bricks::{BrickGrid, MAX_LEVELS};
 use super::segment::{SegmentRows, cell_at};
 use lanes::{ROW, Simd, next_bit};
 

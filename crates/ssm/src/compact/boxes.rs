@@ -46,7 +46,7 @@ pub(super) fn boxes<B: Bounds>(
 
 /// Of the references in a cell that a ray meets, the part whose boxes it meets too: the mean over cells here and there.
 fn met(grid: &Grid, bricks: &BrickGrid, cells: &Cells, box_of: impl Fn(u32) -> UnitBox) -> f64 {
-    let count = bricks.count() as usize * super::bricks::BRICK;
+    let count = bricks.count() as usize * super::brick::BRICK;
     let (mut sum, mut references) = (0.0, 0u32);
     for cell in (0..count).step_by((count / SAMPLE).max(1) | 1) {
         if cells.length(cell) == 0 || bricks.divides(cell) {

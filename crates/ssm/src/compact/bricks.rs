@@ -3,6 +3,7 @@
 //! brick of its own.
 
 use super::ID;
+use super::brick::{BRICK, EDGE, SHIFT, cell_of, within};
 use super::segment::{ClippedSegment, Frame, SegmentRows, UnitBox, greater};
 use crate::register::Word;
 use accel::grid::Grid;
@@ -10,13 +11,6 @@ use accel::{Aabb, BuildError, Ray};
 use lanes::Simd;
 use lanes::packet::rows;
 use std::ops::Range;
-
-/// Cells along an edge of a brick.
-pub(super) const EDGE: u32 = 4;
-/// Two to this is [`EDGE`].
-pub(super) const SHIFT: u32 = 2;
-/// Cells of a brick.
-pub(super) const BRICK: usize = 64;
 
 /// Most levels of bricks within cells.
 pub(super) const MAX_LEVELS: usize = 7;
@@ -259,18 +253,6 @@ impl BrickGrid {
     }
 }
 
-/// The number of a cell within its brick.
-#[inline(always)]
-pub(super) fn within([x, y, z]: [u32; 3]) -> u32 {
-    x % EDGE + y % EDGE * EDGE + z % EDGE * (EDGE * EDGE)
-}
-
-/// The cell of that number within a brick that is at this place among those of its size.
-#[inline(always)]
-pub(super) fn cell_of([x, y, z]: [u32; 3], within: u32) -> [u32; 3] {
-    [x * EDGE + within % EDGE, y * EDGE + within / EDGE % EDGE, z * EDGE + within / (EDGE * EDGE)]
-}
-
 /// So many words put in order take as long as looking at one object in one brick, about.
 const WORTH_SORTING: u64 = 8;
 
@@ -308,15 +290,6 @@ pub(super) fn at_level(range: &Range<u32>, levels: u32) -> Range<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn cells_are_numbered_within_their_brick() {
-        for number in 0..BRICK as u32 {
-            let cell = cell_of([5, 0, 2], number);
-            assert_eq!(cell.map(|slice| slice / EDGE), [5, 0, 2]);
-            assert_eq!(within(cell), number);
-        }
-    }
 
     #[test]
     fn places_are_the_cells_in_all_three_ranges() {

@@ -2,7 +2,8 @@
 //! grids of D. Jevans and B. Wyvill, *Adaptive Voxel Subdivision for Ray Tracing*, Graphics
 //! Interface 1989, in the layout of the grid itself.
 
-use super::bricks::{BRICK, BrickGrid, at_level, cell_of, places};
+use super::brick::{BRICK, cell_of};
+use super::bricks::{BrickGrid, at_level, places};
 use super::order::GROUP;
 use super::{BRICK_BYTES, Cells, ID};
 use crate::register::Limit;

@@ -6,6 +6,7 @@ mod alone;
 mod any;
 mod beam;
 mod boxes;
+mod brick;
 mod bricks;
 mod chunk;
 mod divide;
@@ -26,7 +27,8 @@ use accel::{
     Accel, Bounds, BuildError, BuildResult, Builder, Cancel, Counters, Footprint, Hit, Ray, RaySet, Scene,
     Workload, vec_bytes,
 };
-use bricks::{BRICK, BrickGrid};
+use brick::BRICK;
+use bricks::BrickGrid;
 use lanes::{Blocks, EMPTY_SLOT, PackedObjects};
 use order::{GROUP, Order};
 use primitives::WithObjects;

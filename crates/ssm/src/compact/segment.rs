@@ -1,6 +1,6 @@
 //! The part of a ray inside a grid, in the grid's finest cells, prepared for walking and for boxes.
 
-use super::bricks::{EDGE, SHIFT};
+use super::brick::{EDGE, SHIFT};
 use accel::grid::{Grid, RayRows, Span};
 use accel::tolerance::{INSET, LIMIT_S, PARALLEL};
 use accel::{Aabb, Ray};
