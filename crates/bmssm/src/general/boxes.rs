@@ -2,11 +2,12 @@
 
 use super::maps::BlockMaps;
 use super::scratch::PairList;
+use super::sides::Sides;
 use super::state::TraversalState;
 use accel::tolerance::LOCAL_MARGIN;
 use lanes::packet::Overlap;
 use lanes::path::SLICES;
-use lanes::split::{Item, UnitBox};
+use lanes::split::whole;
 use lanes::{BLOCK, Simd};
 
 /// Places of a box's sides in a slice of the block's maps.
@@ -24,17 +25,25 @@ impl BlockBoxes {
     /// Of no objects.
     pub const EMPTY: Self = Self { low: [[u8::MAX; BLOCK]; 3], high: [[0; BLOCK]; 3] };
 
-    /// Those of up to 64 objects by position, widened as they are registered in the maps.
-    pub fn new(maps: &BlockMaps, objects: &[Item]) -> Self {
+    /// Those of a block's objects, widened as they are registered in its maps.
+    #[inline(always)]
+    pub fn new<S: Simd>(s: S, maps: &BlockMaps, Sides { low, high, .. }: &Sides) -> Self {
         let mut boxes = Self::EMPTY;
-        for (slot, object) in objects.iter().enumerate() {
-            let UnitBox { min, max } = object.bounds().widened();
-            for axis in 0..3 {
-                let [low, high] = maps.local_pair(axis, [min[axis], max[axis]]);
-                // Below the first step and beyond the last there is nothing.
-                boxes.low[axis][slot] = ((low - LOCAL_MARGIN) * STEPS) as u8;
-                boxes.high[axis][slot] = ((high + LOCAL_MARGIN) * STEPS).ceil() as u8;
+        let (steps, margin) = (s.splat(STEPS), s.splat(LOCAL_MARGIN));
+        let (half, end) = (s.splat(0.5), s.splat(f32::from(u8::MAX)));
+        for axis in 0..3 {
+            let (origin, density) = (s.splat(maps.origin[axis]), s.splat(maps.density[axis]));
+            let position = |side: S::F| s.mul(s.sub(side, origin), density);
+            let (mut first, mut last) = ([0.0; BLOCK], [0.0; BLOCK]);
+            for at in (0..BLOCK).step_by(S::LANES) {
+                let low = s.mul(s.sub(position(s.load(&low[axis][at..])), margin), steps);
+                let high = s.mul(s.add(position(s.load(&high[axis][at..])), margin), steps);
+                // Half a step outwards, so that what is rounded to a whole step is not within.
+                s.store(s.min(s.max(s.sub(low, half), s.splat(0.0)), end), &mut first[at..]);
+                s.store(s.min(s.max(s.add(high, half), s.splat(0.0)), end), &mut last[at..]);
             }
+            boxes.low[axis] = first.map(|step| whole(step) as u8);
+            boxes.high[axis] = last.map(|step| whole(step) as u8);
         }
         boxes
     }
@@ -129,5 +138,52 @@ impl<S: Simd> LocalRays<S> {
             local.per_step[axis] = s.mul(per_slice[axis], slices);
         }
         local
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lanes::split::{Extremes, Item, UnitBox};
+    use lanes::{Level, Task};
+    use proptest::prelude::*;
+
+    struct Kept<'a>(&'a [Item]);
+
+    impl Task for Kept<'_> {
+        type Out = (BlockMaps, BlockBoxes);
+
+        #[inline(always)]
+        fn run<S: Simd>(self, s: S) -> Self::Out {
+            let sides = Sides::of(self.0);
+            let maps = BlockMaps::new(s, &Extremes::of(self.0).bounds(), &sides);
+            let boxes = BlockBoxes::new(s, &maps, &sides);
+            (maps, boxes)
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn boxes_are_rounded_outwards_by_a_step_at_most(
+            corners in prop::collection::vec((prop::array::uniform3(0.0..1.0f32), prop::array::uniform3(0.0..0.2f32)), 1..=BLOCK),
+        ) {
+            let bounds = |(min, size): &([f32; 3], [f32; 3])| UnitBox { min: *min, max: [0, 1, 2].map(|a| min[a] + size[a]) };
+            let items: Vec<Item> = corners.iter().map(bounds).zip(0..).map(|(b, i)| Item::new(i, 1, &b)).collect();
+            let (maps, boxes) = Level::Portable.run(Kept(&items));
+            for (slot, item) in items.iter().enumerate() {
+                let UnitBox { min, max } = item.bounds().widened();
+                for axis in 0..3 {
+                    let [low, high] = maps.local_pair(axis, [min[axis], max[axis]]);
+                    let [low, high] = [(low - LOCAL_MARGIN) * STEPS, (high + LOCAL_MARGIN) * STEPS];
+                    let [begin, end] = [boxes.low[axis][slot], boxes.high[axis][slot]].map(f32::from);
+                    prop_assert!(begin <= low.max(0.0) && low < begin + 1.001, "{begin} {low}");
+                    prop_assert!(high.min(255.0) <= end && (end - 1.001 < high), "{end} {high}");
+                }
+            }
+            for level in Level::here() {
+                let other = level.run(Kept(&items)).1;
+                prop_assert!((&other.low, &other.high) == (&boxes.low, &boxes.high), "{:?}", level);
+            }
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! The binary maps of one block: a bit per object in each slice (Skala 1993, §2, §5).
 
+use super::sides::Sides;
 use accel::tolerance::LOCAL_MARGIN;
+use lanes::Simd;
 use lanes::path::{Hull, Path, PathRows, SLICES};
-use lanes::split::{Item, UnitBox};
-use lanes::{BLOCK, Simd};
+use lanes::split::UnitBox;
 
 /// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be
 /// uniform (Skala 1993, abstract).
@@ -22,26 +23,17 @@ impl BlockMaps {
     /// Of no objects.
     pub const EMPTY: Self = Self { maps: [[0; SLICES]; 3], origin: [0.0; 3], density: [0.0; 3] };
 
-    /// Registers the boxes of up to 64 objects by position; `bounds` contains them all.
+    /// Registers boxes by position; `bounds` contains them all.
     #[inline(always)]
-    pub fn new<S: Simd>(s: S, bounds: &UnitBox, objects: &[Item]) -> Self {
+    pub fn new<S: Simd>(s: S, bounds: &UnitBox, Sides { low, high, len }: &Sides) -> Self {
         let UnitBox { min: origin, max } = bounds.widened();
         let density = [0, 1, 2].map(|a| SLICES as f32 / (max[a] - origin[a]));
         let mut maps = [[0; SLICES]; 3];
-        // A slot without an object begins behind the last slice and ends before the first.
-        let mut low = [[f32::INFINITY; BLOCK]; 3];
-        let mut high = [[f32::NEG_INFINITY; BLOCK]; 3];
-        for (slot, object) in objects.iter().enumerate() {
-            let UnitBox { min, max } = object.bounds().widened();
-            for axis in 0..3 {
-                (low[axis][slot], high[axis][slot]) = (min[axis], max[axis]);
-            }
-        }
         let last = (SLICES - 1) as f32;
         for axis in 0..3 {
             let (origin, density) = (s.splat(origin[axis]), s.splat(density[axis]));
             let position = |value: S::F| s.mul(s.sub(value, origin), density);
-            for at in (0..objects.len()).step_by(S::LANES) {
+            for at in (0..*len).step_by(S::LANES) {
                 let margin = s.splat(LOCAL_MARGIN);
                 let first = s.sub(position(s.load(&low[axis][at..])), margin);
                 let first = s.min(first, s.splat(last));

@@ -11,6 +11,7 @@ mod paths;
 mod ready;
 mod scene;
 mod scratch;
+mod sides;
 mod state;
 mod stream;
 mod test;

@@ -4,6 +4,7 @@
 use super::boxes::BlockBoxes;
 use super::maps::BlockMaps;
 use super::scene::is_large;
+use super::sides::Sides;
 use super::{Settings, Storage};
 use crate::id::ID;
 use accel::parallel::extend;
@@ -302,9 +303,10 @@ impl Task for Cut<'_, '_> {
             let from = &from[first..end];
             if from.len() <= BLOCK {
                 let bounds = Extremes::of(from).bounds();
-                room.maps[at] = BlockMaps::new(s, &bounds, from);
+                let sides = Sides::of(from);
+                room.maps[at] = BlockMaps::new(s, &bounds, &sides);
                 if let Some(boxes) = room.boxes.get_mut(at) {
-                    *boxes = BlockBoxes::new(&room.maps[at], from);
+                    *boxes = BlockBoxes::new(s, &room.maps[at], &sides);
                 }
                 room.blocks[at] = Item::new(room.first + at as u32, 1, &bounds);
                 for (slot, item) in room.slots[at * BLOCK..].iter_mut().zip(from) {
