@@ -6,7 +6,7 @@ use super::state::{DirectionRows, LIMIT, NodeView, TraversalState};
 use accel::Nearest;
 use accel::grid::{RayRows, SegmentRows};
 use lanes::packet::{NearestPacket, Packet};
-use lanes::path::Hull;
+use lanes::path::{Hull, dominant_axis};
 use lanes::{ROW, Simd};
 
 /// By how much hulls are widened: 16 times the rounding of a position, of which there are a few.
@@ -127,8 +127,7 @@ impl Beam {
             (start[axis], delta[axis]) = (segments.start[axis][lane], segments.delta[axis][lane]);
             size[axis] = delta[axis].abs();
         }
-        let axis = usize::from(size[1] > size[0]);
-        let axis = if size[2] > size[axis] { 2 } else { axis };
+        let axis = dominant_axis(size);
         let (spread, half) = (s.splat(spread), s.splat(0.5 * size[axis]));
         let mut straight = true;
         for at in (0..ROW).step_by(S::LANES) {

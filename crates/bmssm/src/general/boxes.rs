@@ -4,7 +4,6 @@ use super::maps::BlockMaps;
 use super::scratch::PairList;
 use super::sides::Sides;
 use super::state::TraversalState;
-use accel::tolerance::LOCAL_MARGIN;
 use lanes::packet::Overlap;
 use lanes::path::SLICES;
 use lanes::split::whole;
@@ -27,18 +26,15 @@ impl BlockBoxes {
 
     /// Those of a block's objects, widened as they are registered in its maps.
     #[inline(always)]
-    pub fn new<S: Simd>(s: S, maps: &BlockMaps, Sides { low, high, .. }: &Sides) -> Self {
+    pub fn new<S: Simd>(s: S, maps: &BlockMaps, sides: &Sides) -> Self {
         let mut boxes = Self::EMPTY;
-        let (steps, margin) = (s.splat(STEPS), s.splat(LOCAL_MARGIN));
-        let (half, end) = (s.splat(0.5), s.splat(f32::from(u8::MAX)));
+        let (steps, half, end) = (s.splat(STEPS), s.splat(0.5), s.splat(f32::from(u8::MAX)));
         for axis in 0..3 {
-            let (origin, density) = (s.splat(maps.origin[axis]), s.splat(maps.density[axis]));
-            let position = |side: S::F| s.mul(s.sub(side, origin), density);
             let (mut first, mut last) = ([0.0; BLOCK], [0.0; BLOCK]);
             for at in (0..BLOCK).step_by(S::LANES) {
-                let low = s.mul(s.sub(position(s.load(&low[axis][at..])), margin), steps);
-                let high = s.mul(s.add(position(s.load(&high[axis][at..])), margin), steps);
-                // Half a step outwards, so that what is rounded to a whole step is not within.
+                let [low, high] = maps.spans(s, axis, sides, at);
+                let (low, high) = (s.mul(low, steps), s.mul(high, steps));
+                // Half a step outwards, for they are rounded to the nearest step.
                 s.store(s.min(s.max(s.sub(low, half), s.splat(0.0)), end), &mut first[at..]);
                 s.store(s.min(s.max(s.add(high, half), s.splat(0.0)), end), &mut last[at..]);
             }
@@ -144,6 +140,7 @@ impl<S: Simd> LocalRays<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use accel::tolerance::LOCAL_MARGIN;
     use lanes::split::{Extremes, Item, UnitBox};
     use lanes::{Level, Task};
     use proptest::prelude::*;

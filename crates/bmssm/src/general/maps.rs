@@ -3,7 +3,7 @@
 use super::sides::Sides;
 use accel::tolerance::LOCAL_MARGIN;
 use lanes::Simd;
-use lanes::path::{Hull, Path, PathRows, SLICES};
+use lanes::path::{Hull, Path, PathRows, SLICES, dominant_axis, following};
 use lanes::split::UnitBox;
 
 /// The maps R, S and T of up to 64 objects in [`SLICES`] slices an axis, N of the paper, over the block's own box: the subdivision of space need not be
@@ -25,28 +25,34 @@ impl BlockMaps {
 
     /// Registers boxes by position; `bounds` contains them all.
     #[inline(always)]
-    pub fn new<S: Simd>(s: S, bounds: &UnitBox, Sides { low, high, len }: &Sides) -> Self {
+    pub fn new<S: Simd>(s: S, bounds: &UnitBox, sides: &Sides) -> Self {
         let UnitBox { min: origin, max } = bounds.widened();
         let density = [0, 1, 2].map(|a| SLICES as f32 / (max[a] - origin[a]));
-        let mut maps = [[0; SLICES]; 3];
+        let mut maps = Self { maps: [[0; SLICES]; 3], origin, density };
         let last = (SLICES - 1) as f32;
         for axis in 0..3 {
-            let (origin, density) = (s.splat(origin[axis]), s.splat(density[axis]));
-            let position = |value: S::F| s.mul(s.sub(value, origin), density);
-            for at in (0..*len).step_by(S::LANES) {
-                let margin = s.splat(LOCAL_MARGIN);
-                let first = s.sub(position(s.load(&low[axis][at..])), margin);
+            for at in (0..sides.len).step_by(S::LANES) {
+                let [first, end] = maps.spans(s, axis, sides, at);
                 let first = s.min(first, s.splat(last));
-                let end = s.add(position(s.load(&high[axis][at..])), margin);
                 let end = s.max(end, s.splat(0.0));
-                for (slice, word) in maps[axis].iter_mut().enumerate() {
+                for (slice, word) in maps.maps[axis].iter_mut().enumerate() {
                     let begun = s.lt(first, s.splat((slice + 1) as f32));
                     let there = s.and(begun, s.le(s.splat(slice as f32), end));
                     *word |= u64::from(s.bits(there)) << at;
                 }
             }
         }
-        Self { maps, origin, density }
+        maps
+    }
+
+    /// Where boxes begin and end on an axis, in slices, widened by the margin of positions; `LANES` of them from a slot on.
+    #[inline(always)]
+    pub(super) fn spans<S: Simd>(&self, s: S, axis: usize, sides: &Sides, at: usize) -> [S::F; 2] {
+        let (origin, density) = (s.splat(self.origin[axis]), s.splat(self.density[axis]));
+        let margin = s.splat(LOCAL_MARGIN);
+        let low = s.mul(s.sub(s.load(&sides.low[axis][at..]), origin), density);
+        let high = s.mul(s.sub(s.load(&sides.high[axis][at..]), origin), density);
+        [s.sub(low, margin), s.add(high, margin)]
     }
 
     /// The candidates of the straight way between two points of the scene's unit coordinates: the union of R & S & T over the cells
@@ -60,10 +66,8 @@ impl BlockMaps {
         let (from, to) = (self.local(from), self.local(to));
         let way = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
         let size = [way[0].abs(), way[1].abs(), way[2].abs()];
-        // Looked up rather than branched on: which axis it is can't be foreseen.
-        let axis = usize::from(size[1] > size[0]);
-        let axis = if size[2] > size[axis] { 2 } else { axis };
-        let (b, c) = following(axis);
+        let axis = dominant_axis(size);
+        let [b, c] = following(axis);
         let begin = if way[axis] < 0.0 { to } else { from };
         let per_slice = if size[axis] > 0.0 { 1.0 / way[axis] } else { 0.0 };
         let path = Path {
@@ -97,7 +101,7 @@ impl BlockMaps {
     /// that follow it.
     #[inline(always)]
     fn starting_with(&self, axis: usize) -> [&[u64; SLICES]; 3] {
-        let (b, c) = following(axis);
+        let [b, c] = following(axis);
         [&self.maps[axis], &self.maps[b], &self.maps[c]]
     }
 
@@ -116,10 +120,4 @@ impl BlockMaps {
             (p[2] - self.origin[2]) * self.density[2],
         ]
     }
-}
-
-/// The two axes after one, going round.
-#[inline(always)]
-fn following(axis: usize) -> (usize, usize) {
-    ([1, 2, 0][axis], [2, 0, 1][axis])
 }

@@ -6,6 +6,20 @@ use accel::tolerance::TRIM;
 /// Slices of each map.
 pub const SLICES: usize = 8;
 
+/// The axis on which something of this size is longest, the first of several. Looked up rather than branched on: which it is can't
+/// be foreseen.
+#[inline(always)]
+pub fn dominant_axis(size: [f32; 3]) -> usize {
+    let axis = usize::from(size[1] > size[0]);
+    if size[2] > size[axis] { 2 } else { axis }
+}
+
+/// The two axes after one, going round.
+#[inline(always)]
+pub fn following(axis: usize) -> [usize; 2] {
+    [[1, 2, 0][axis], [2, 0, 1][axis]]
+}
+
 /// A path through three maps of [`SLICES`] slices of unit thickness, along the axis on which it is longest. On that
 /// axis it rises from `low` to `high`; on each of the other two it starts at `start`
 /// and moves by `slope`, at most 1 either way, for each slice of the first.
@@ -111,4 +125,22 @@ fn touched(map: &[u64; SLICES], p: f32, q: f32) -> u64 {
 #[inline(always)]
 fn clamped(position: f32) -> usize {
     (position.max(0.0) as usize).min(SLICES - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_axis_comes_first_and_the_others_follow() {
+        for (size, axis, others) in [
+            ([3.0, 2.0, 1.0], 0, [1, 2]),
+            ([2.0, 3.0, 1.0], 1, [2, 0]),
+            ([1.0, 2.0, 3.0], 2, [0, 1]),
+            ([2.0, 2.0, 2.0], 0, [1, 2]),
+            ([1.0, 2.0, 2.0], 1, [2, 0]),
+        ] {
+            assert_eq!((dominant_axis(size), following(axis)), (axis, others), "{size:?}");
+        }
+    }
 }

@@ -5,6 +5,7 @@
 use super::brick::{BRICK, EDGE, SHIFT, cell_of};
 use super::bricks::{BrickGrid, MAX_LEVELS};
 use super::segment::{SegmentRows, cell_at};
+use lanes::path::{dominant_axis, following};
 use lanes::{ROW, Simd, next_bit};
 
 /// By how much of the grid what contains the rays is widened: 16 times the rounding of a position, of which there are a few.
@@ -52,9 +53,9 @@ impl Beam {
         let first = lanes.trailing_zeros() as usize % ROW;
         let delta = [0, 1, 2].map(|axis: usize| rows.delta[axis][first]);
         let size = delta.map(f32::abs);
-        let axis = usize::from(size[1] > size[0]);
-        let axis = if size[2] > size[axis] { 2 } else { axis };
-        let axes = [axis, (axis + 1) % 3, (axis + 2) % 3];
+        let axis = dominant_axis(size);
+        let [b, c] = following(axis);
+        let axes = [axis, b, c];
         let most = grid.finest_slices().into_iter().fold(1, u32::max);
         let wider = most as f32 * WIDER;
         // Shorter ones have no direction that is certain.
