@@ -89,6 +89,13 @@ impl Grid {
         (value - f64::from(self.bounds.min[axis])) * self.inverse[axis]
     }
 
+    /// The coordinates that are 0 in units of the grid's extent, and units to a length of 1: (v − origin) · inverse is
+    /// [`Grid::unit`] of v.
+    #[inline(always)]
+    pub fn to_unit(&self) -> ([f64; 3], [f64; 3]) {
+        (self.bounds.min.as_dvec3().to_array(), self.inverse)
+    }
+
     /// The slices that a box touches along an axis, conservatively.
     #[inline]
     pub fn slices(&self, axis: usize, bounds: &Aabb) -> Range<u32> {

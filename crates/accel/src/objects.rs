@@ -1,5 +1,6 @@
 //! What a structure asks of the objects of a scene.
 
+use crate::parallel::prelude::*;
 #[cfg(doc)]
 use crate::tolerance::T_SLACK;
 use crate::{Aabb, Hit, Nearest, Ray, Surface};
@@ -19,6 +20,12 @@ pub trait Bounds: Send + Sync {
     /// # Panics
     /// If there is no such object.
     fn bounds(&self, id: u32) -> Aabb;
+
+    /// The box of all boxes, empty if there are none.
+    fn hull(&self) -> Aabb {
+        let each = (0..self.len() as u32).into_par_iter().with_min_len(1 << 12);
+        each.map(|id| self.bounds(id)).reduce(|| Aabb::EMPTY, |a, b| a.union(b))
+    }
 }
 
 impl<O: Objects> Bounds for O {

@@ -135,7 +135,7 @@ struct Cells<I> {
 
 impl<I: Id> Cells<I> {
     fn new<B: Bounds>(objects: &B, settings: &Settings, cancel: Cancel) -> Result<Self, BuildError> {
-        let bounds = crate::resolution::bounds(objects, |_| true);
+        let bounds = crate::resolution::bounds(objects);
         let grid = crate::resolution::grid(ID, settings.resolution, bounds, objects.len())?;
         let limit = Limit::of(ID, settings);
         let cells = limit.cells(u128::from(grid.cells()), (size_of::<I>() + 4) as u128)?;

@@ -70,12 +70,20 @@ fn by_density(bounds: &Aabb, cells: f64) -> [u32; 3] {
     extent.map(|e| if e > 0.0 && edge > 0.0 { (e / edge).round().clamp(1.0, most) as u32 } else { 1 })
 }
 
-/// The box of the padded boxes of those objects that are wanted; some box where there are none.
-pub(crate) fn bounds<B: Bounds>(objects: &B, wanted: impl Fn(u32) -> bool + Sync) -> Aabb {
+/// The box of the padded boxes of all objects; some box where there are none.
+pub(crate) fn bounds<B: Bounds>(objects: &B) -> Aabb {
+    or_some(objects.hull())
+}
+
+/// The box of those objects that are wanted; some box where there are none.
+pub(crate) fn bounds_of<B: Bounds>(objects: &B, wanted: impl Fn(u32) -> bool + Sync) -> Aabb {
     let each = (0..objects.len() as u32).into_par_iter().with_min_len(1 << 12);
     let each = each.filter(|id| wanted(*id)).map(|id| objects.bounds(id));
-    let all = each.reduce(|| Aabb::EMPTY, |a, b| a.union(b));
-    if all.is_empty() { Aabb { min: Vec3::ZERO, max: Vec3::ONE } } else { all }
+    or_some(each.reduce(|| Aabb::EMPTY, |a, b| a.union(b)))
+}
+
+fn or_some(bounds: Aabb) -> Aabb {
+    if bounds.is_empty() { Aabb { min: Vec3::ZERO, max: Vec3::ONE } } else { bounds }
 }
 
 /// The grid that the rule gives.

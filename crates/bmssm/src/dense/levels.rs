@@ -77,7 +77,7 @@ mod tests {
             .map(|min| Aabb { min, max: min + 2.5 })
             .collect();
         let objects = Boxes::new(&boxes);
-        let grid = Grid::new(super::super::space::bounds_of(&objects), [9, 8, 7]).unwrap();
+        let grid = Grid::new(accel::Bounds::hull(&objects), [9, 8, 7]).unwrap();
         let maps = SpaceMaps::new(&objects, grid).with_levels().unwrap();
         assert_eq!(maps.above.len(), 2);
         for cell in (0..9 * 8 * 7).map(|i| [i % 9, i / 9 % 8, i / 72]) {

@@ -93,7 +93,7 @@ impl Maps {
         settings.resolution.check().map_err(|problem| setting("resolution", problem))?;
         let grid = (workload.general && !objects.is_empty())
             .then(|| {
-                let bounds = space::bounds_of(objects);
+                let bounds = objects.hull();
                 Grid::new(bounds, settings.resolution.slices(objects, &bounds))
             })
             .transpose()

@@ -131,7 +131,7 @@ mod tests {
         };
         let slices = |boxes: &[Aabb], rule: Resolution| {
             let objects = Boxes::new(boxes);
-            rule.slices(&objects, &super::super::space::bounds_of(&objects))
+            rule.slices(&objects, &accel::Bounds::hull(&objects))
         };
         let flat = cubes(0.5, 0.0);
         assert_eq!(slices(&flat, Resolution::Same(16)), [16, 16, 1]);

@@ -2,7 +2,7 @@
 
 use super::Axis;
 use accel::grid::Grid;
-use accel::{Aabb, Bounds, BuildError};
+use accel::{Bounds, BuildError};
 use lanes::ones;
 
 /// The bit maps of a grid: ⁱR & ʲS & ᵏT are the candidates of cell (i, j, k).
@@ -94,15 +94,10 @@ impl SpaceMaps {
     }
 }
 
-/// The box of all objects' boxes.
-pub(super) fn bounds_of<B: Bounds>(objects: &B) -> Aabb {
-    (0..objects.len() as u32).fold(Aabb::EMPTY, |all, id| all.union(objects.bounds(id)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use accel::Vec3;
+    use accel::{Aabb, Vec3};
     use primitives::Boxes;
 
     /// Skala 1993, §5: M_BMSSM = 3·N·p bits.
@@ -113,7 +108,7 @@ mod tests {
             .map(|min| Aabb { min, max: min + 0.5 })
             .collect();
         let objects = Boxes::new(&boxes);
-        let grid = Grid::new(bounds_of(&objects), [8; 3]).unwrap();
+        let grid = Grid::new(Bounds::hull(&objects), [8; 3]).unwrap();
         let maps = SpaceMaps::new(&objects, grid);
         assert_eq!(maps.bytes() * 8, 3 * 8 * 128);
         assert_eq!(maps.bytes() as u128, SpaceMaps::bytes_of([8; 3], 128));

@@ -67,6 +67,15 @@ pub enum Fill {
 struct Part<'i> {
     items: &'i mut [Item],
     bounds: UnitBox,
+    /// What its surface is.
+    area: f32,
+}
+
+impl<'i> Part<'i> {
+    fn of(shape: &Shape, items: &'i mut [Item]) -> Self {
+        let bounds = Extremes::of(items).bounds();
+        Self { area: shape.area(&bounds), items, bounds }
+    }
 }
 
 /// Blocks from which on the children of a node are trees of tasks of their own.
@@ -82,8 +91,7 @@ pub fn over(shape: &Shape, mut blocks: Vec<Item>, fill: Fill, simd: Level) -> Re
     }
     let (mut items, mut marks) = (filled(ID, Item::EMPTY, blocks.len())?, accel::zeroed(ID, blocks.len())?);
     let scratch = Scratch { items: &mut items, marks: &mut marks };
-    let bounds = Extremes::of(&blocks).bounds();
-    let mut nodes = Tree { shape, fill, simd }.grown(Part { items: &mut blocks, bounds }, scratch)?;
+    let mut nodes = Tree { shape, fill, simd }.grown(Part::of(shape, &mut blocks), scratch)?;
     nodes.shrink_to_fit();
     Ok(nodes)
 }
@@ -156,15 +164,12 @@ impl Tree<'_> {
         while parts.len() < WIDTH {
             let largest = (0..parts.len())
                 .filter(|i| parts[*i].items.len() > most)
-                .max_by(|a, b| shape.area(&parts[*a].bounds).total_cmp(&shape.area(&parts[*b].bounds)));
+                .max_by(|a, b| parts[*a].area.total_cmp(&parts[*b].area));
             let Some(largest) = largest else { break };
             let Part { items, .. } = parts.swap_remove(largest);
             let at = simd.run(Divide { shape, items: &mut *items, scratch, left });
             let (left, right) = items.split_at_mut(at);
-            for items in [left, right] {
-                let bounds = Extremes::of(items).bounds();
-                parts.push(Part { items, bounds });
-            }
+            parts.extend([left, right].map(|items| Part::of(shape, items)));
         }
         parts
     }

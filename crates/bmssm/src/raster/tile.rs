@@ -13,12 +13,21 @@ use std::ops::Range;
 /// Pixels where two slices meet.
 const CELL: usize = (THICKNESS * THICKNESS) as usize;
 
+/// Columns and rows of the middles of a cell's pixels, from its corner.
+const MIDDLES: [[f32; CELL]; 2] = {
+    let mut middles = [[0.0; CELL]; 2];
+    let mut i = 0;
+    while i < CELL {
+        middles[0][i] = (i % THICKNESS as usize) as f32 + 0.5;
+        middles[1][i] = (i / THICKNESS as usize) as f32 + 0.5;
+        i += 1;
+    }
+    middles
+};
+
 /// A block's objects are held against each cell from so many on that they cover together: it takes about as long as one
 /// test, and of small objects few are outside of a cell that their box touches.
 const CULLED: u32 = 5 * BLOCK as u32;
-
-/// Blocks after which a tile's farthest hit is found again.
-const PATIENCE: u32 = 4;
 
 /// Rays and nearest hits of a tile's pixels, and values prepared for one block.
 struct TileTrace<S: Simd, M> {
@@ -29,6 +38,8 @@ struct TileTrace<S: Simd, M> {
     /// The cells whose rays are made: those that some block shows candidates in.
     open: Vec<bool>,
     closed: usize,
+    /// The packet that held the farthest hit when it was last looked for.
+    witness: usize,
     rays: Vec<M>,
     best: Vec<NearestPacket<S>>,
     prepared: Vec<Row>,
@@ -132,6 +143,7 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
             cols: 0..0,
             open: vec![false; cells],
             closed: 0,
+            witness: 0,
             rays: vec![any; cells * Self::PACKETS],
             best: vec![NearestPacket::new(s, s.splat(0.0)); cells * Self::PACKETS],
             prepared: vec![Row([0.0; ROW]); <O::Blocks as Blocks>::PREPARED_ROWS * GROUPS],
@@ -158,18 +170,17 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
             prefetch(&line[col as usize..(col + THICKNESS).min(raster.cols) as usize]);
         }
         for packet in 0..Self::PACKETS {
-            let (mut x, mut y, mut t) = ([0.0; ROW], [0.0; ROW], [f32::INFINITY; ROW]);
-            for lane in 0..S::LANES {
-                let i = (packet * S::LANES + lane) as u32;
-                let (r, c) = (row + i / THICKNESS, col + i % THICKNESS);
-                (x[lane], y[lane]) = (c as f32 + 0.5, r as f32 + 0.5);
-                if !inside && (r >= raster.rows || c >= raster.cols) {
-                    t[lane] = f32::NEG_INFINITY;
-                }
+            let from = packet * S::LANES;
+            let x = s.add(s.splat(col as f32), s.load(&MIDDLES[0][from..]));
+            let y = s.add(s.splat(row as f32), s.load(&MIDDLES[1][from..]));
+            let mut t = s.splat(f32::INFINITY);
+            if !inside {
+                let there = s.and(s.lt(x, s.splat(raster.cols as f32)), s.lt(y, s.splat(raster.rows as f32)));
+                t = s.select(there, t, s.splat(f32::NEG_INFINITY));
             }
             let at = cell * Self::PACKETS + packet;
-            self.rays[at] = maps.geometry.many(s, &Packet::of_raster(s, raster, s.load(&x), s.load(&y)));
-            self.best[at] = NearestPacket::new(s, s.load(&t));
+            self.rays[at] = maps.geometry.many(s, &Packet::of_raster(s, raster, x, y));
+            self.best[at] = NearestPacket::new(s, t);
         }
         self.open[cell] = true;
         self.closed -= 1;
@@ -191,20 +202,15 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
         let tile = Tile::new(&maps.raster, rows.clone(), cols.clone(), THICKNESS);
         let across = cols.len();
         let mut farthest = f32::INFINITY;
-        let mut patience = PATIENCE;
         for (i, (r, c)) in maps.tiles.of(row, col).enumerate() {
             count.words(2);
             let mut seen = r & c;
             while let Some(bit) = next_bit(&mut seen) {
                 let at = i * 64 + bit;
                 let block = &maps.blocks[at];
+                farthest = self.farthest(s, farthest);
                 if block.depth[0] > farthest {
                     return;
-                }
-                patience -= 1;
-                if patience == 0 {
-                    patience = PATIENCE;
-                    farthest = self.farthest(s);
                 }
                 if seen != 0 {
                     let next = i * 64 + seen.trailing_zeros() as usize;
@@ -308,17 +314,21 @@ impl<S: Simd, M: Copy> TileTrace<S, M> {
         }
     }
 
-    /// The farthest of the pixels' nearest hits so far.
+    /// The farthest of the pixels' nearest hits so far, which was `before`: it still is where the packet has it that had it then.
     #[inline(always)]
-    fn farthest(&self, s: S) -> f32 {
-        if self.closed != 0 {
-            return f32::INFINITY;
+    fn farthest(&mut self, s: S, before: f32) -> f32 {
+        let has = |packet: &NearestPacket<S>, t: f32| s.bits(s.le(s.splat(t), packet.t)) != 0;
+        if self.closed != 0 || has(&self.best[self.witness], before) {
+            return before;
         }
+        let best = &self.best[..self.rows.len() * self.cols.len() * Self::PACKETS];
         let mut far = s.splat(f32::NEG_INFINITY);
-        for best in &self.best[..self.rows.len() * self.cols.len() * Self::PACKETS] {
+        for best in best {
             far = s.max(far, best.t);
         }
-        s.most(far)
+        let far = s.most(far);
+        self.witness = best.iter().position(|packet| has(packet, far)).unwrap_or(0);
+        far
     }
 
     /// Decides the hits that tests left open.

@@ -3,6 +3,7 @@
 mod bins;
 mod few;
 mod item;
+mod least;
 mod left;
 mod shape;
 mod unit_box;
@@ -30,6 +31,7 @@ impl Shape {
                 scratch.items[..2].copy_from_slice(items);
                 1
             }
+            Left::Any if items.len() <= least::LEAST => least::divide_least(self, items, &mut *scratch.items),
             _ => bins::divide_many(self, items, scratch, left),
         }
     }

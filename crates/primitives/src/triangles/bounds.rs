@@ -2,12 +2,15 @@
 
 use crate::kernel::Storage;
 use accel::{Aabb, Bounds, Corners, MeshRef};
+use glam::Vec3A;
 
 /// The triangles of a mesh, kept as `S` has it.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleBounds<'s, S> {
     pub(super) mesh: MeshRef<'s>,
     pub(super) storage: S,
+    /// The box of all triangles.
+    pub(super) hull: Aabb,
     pub(super) pad: f32,
 }
 
@@ -27,7 +30,12 @@ impl<S: Storage> Bounds for TriangleBounds<'_, S> {
 
     #[inline(always)]
     fn bounds(&self, id: u32) -> Aabb {
-        let [a, b, c] = self.corners(id);
-        Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }.padded(self.pad)
+        let [a, b, c] = self.corners(id).map(Vec3A::from);
+        Aabb { min: a.min(b).min(c).into(), max: a.max(b).max(c).into() }.padded(self.pad)
+    }
+
+    #[inline(always)]
+    fn hull(&self) -> Aabb {
+        if self.hull.is_empty() { self.hull } else { self.hull.padded(self.pad) }
     }
 }

@@ -65,7 +65,7 @@ impl<'s, K: Kernel> Triangles<'s, K> {
             bounds = Aabb { min: storage.place(bounds.min), max: storage.place(bounds.max) };
         }
         let frame = Frame::of(&bounds, K::NORMALISED);
-        let shape = TriangleBounds { mesh, storage, pad: frame.pad };
+        let shape = TriangleBounds { mesh, storage, hull: bounds, pad: frame.pad };
         Self { shape, frame, kernel: PhantomData }
     }
 

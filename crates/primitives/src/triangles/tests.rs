@@ -1,7 +1,7 @@
 use super::*;
 use crate::{KernelId, WithKernel};
 use accel::tolerance::holds;
-use accel::{Mesh, Vec3};
+use accel::{Aabb, Mesh, Objects, Vec3};
 use lanes::{BLOCK, Level, OneByOne, ROW, Task};
 use proptest::prelude::*;
 
@@ -14,6 +14,20 @@ fn mesh(corners: &[[Vec3; 3]]) -> Mesh {
 
 fn point(range: f32) -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(prop_oneof![-range..range, Just(0.0), Just(range)]).prop_map(Vec3::from_array)
+}
+
+struct Hull<'a>(&'a Mesh);
+
+impl WithKernel for Hull<'_> {
+    type Out = ();
+
+    fn kernel<K: TriangleKernel>(self) {
+        use accel::Bounds;
+        let triangles = Triangles::<K>::new(self.0);
+        let each = (0..self.0.triangles.len() as u32).map(|id| Bounds::bounds(&triangles, id));
+        let union = each.fold(Aabb::EMPTY, |all, bounds| all.union(bounds));
+        assert_eq!(triangles.shape().hull(), union, "{}", K::ID);
+    }
 }
 
 struct ByMask<'a, B>(&'a B, &'a [Ray], u64);
@@ -146,6 +160,19 @@ proptest! {
             .collect();
         for kernel in KernelId::ALL {
             kernel.with(Compare { mesh: &mesh(&flat), rays: &rays, mask: u64::MAX, backwards });
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_hull_is_the_box_of_all_boxes(
+        corners in prop::collection::vec(prop::array::uniform3(point(3e4)), 0..20),
+        scale in prop_oneof![Just(1.0f32), Just(1e-30), Just(1e30)],
+    ) {
+        let corners: Vec<_> = corners.into_iter().map(|each| each.map(|corner| corner * scale)).collect();
+        for kernel in KernelId::ALL {
+            kernel.with(Hull(&mesh(&corners)));
         }
     }
 }

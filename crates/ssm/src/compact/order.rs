@@ -28,7 +28,7 @@ const LARGE: f64 = 0.25;
 /// # Errors
 /// [`BuildError::TooLarge`] if the system doesn't give the memory.
 pub(super) fn order<B: Bounds>(objects: &B) -> Result<Order, BuildError> {
-    let all = crate::resolution::bounds(objects, |_| true);
+    let all = crate::resolution::bounds(objects);
     let size = |bounds: &Aabb| {
         (0..3).map(|a| f64::from(bounds.max[a]) - f64::from(bounds.min[a])).fold(0.0, f64::max)
     };
@@ -47,7 +47,7 @@ pub(super) fn order<B: Bounds>(objects: &B) -> Result<Order, BuildError> {
     let largest = (0..tasks).into_par_iter().map(of_task).reduce(|| Largest::NONE, Largest::with);
     let mut ids = [0; GROUP];
     let large = largest.ids(&mut ids);
-    let bounds = crate::resolution::bounds(objects, |id| large.binary_search(&id).is_err());
+    let bounds = crate::resolution::bounds_of(objects, |id| large.binary_search(&id).is_err());
     let apart = large.len().next_multiple_of(GROUP);
     let others = objects.len() - large.len();
     let len = apart + others.next_multiple_of(GROUP);
