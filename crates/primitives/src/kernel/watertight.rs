@@ -37,8 +37,8 @@ pub struct ShearedLanes<S: Simd> {
 enum Dominant<S: Simd> {
     /// The same everywhere.
     Same(usize),
-    /// x or y where the masks say so, z elsewhere.
-    Mixed { x: S::M, y: S::M },
+    /// x or z where the masks say so, y elsewhere. The axes' numbers are kept beside them, as numbers can be permuted.
+    Mixed { x: S::M, z: S::M, axes: S::F },
 }
 
 impl<S: Simd> Dominant<S> {
@@ -47,34 +47,36 @@ impl<S: Simd> Dominant<S> {
     fn permuted(&self, s: S, at: S::U) -> Self {
         match *self {
             Self::Same(axis) => Self::Same(axis),
-            Self::Mixed { x, y } => {
-                let (zero, one) = (s.splat(0.0), s.splat(1.0));
-                let (x, y) = (s.select(x, one, zero), s.select(y, one, zero));
-                Self::Mixed { x: s.lt(zero, s.permute(x, at)), y: s.lt(zero, s.permute(y, at)) }
-            }
+            Self::Mixed { axes, .. } => Self::mixed(s, s.permute(axes, at)),
         }
     }
 
-    /// The coordinates in the order: next after the dominant axis, the one after, dominant.
+    /// Given the number of each lane's axis.
+    #[inline(always)]
+    fn mixed(s: S, axes: S::F) -> Self {
+        let one = s.splat(1.0);
+        Self::Mixed { x: s.lt(axes, one), z: s.lt(one, axes), axes }
+    }
+
+    /// As [`rotate`].
     #[inline(always)]
     fn rotate(&self, s: S, v: Vec3Lanes<S>) -> Vec3Lanes<S> {
         match *self {
             Self::Same(axis) => rotate(v, axis),
-            Self::Mixed { x, y } => [
-                s.select(x, v[1], s.select(y, v[2], v[0])),
-                s.select(x, v[2], s.select(y, v[0], v[1])),
-                s.select(x, v[0], s.select(y, v[1], v[2])),
-            ],
+            Self::Mixed { x, z, .. } => {
+                [s.select(x, v[1], v[0]), s.select(z, v[1], v[2]), s.select(x, v[0], s.select(z, v[2], v[1]))]
+            }
         }
     }
 }
 
-/// Cyclic, so that the handedness stays.
+/// The coordinates with the dominant one last and the others in their order. Where that mirrors them, all edge functions have the
+/// other sign, which a two-sided test doesn't mind.
 #[inline(always)]
 fn rotate<T: Copy>(v: [T; 3], dominant: usize) -> [T; 3] {
     match dominant {
         0 => [v[1], v[2], v[0]],
-        1 => [v[2], v[0], v[1]],
+        1 => [v[0], v[2], v[1]],
         _ => v,
     }
 }
@@ -116,7 +118,8 @@ impl RayForm for Sheared {
         } else if bits_x | bits_y == 0 {
             Dominant::Same(2)
         } else {
-            Dominant::Mixed { x, y }
+            let other = s.select(y, s.splat(1.0), s.splat(2.0));
+            Dominant::mixed(s, s.select(x, s.splat(0.0), other))
         };
         let direction = dominant.rotate(s, rays.direction);
         ShearedLanes { origin: rays.origin, t_min: rays.t_min, dominant, shear: shear(s, direction) }
